@@ -1,0 +1,2 @@
+# Messages and the catkin side of the package.
+find_package(catkin REQUIRED)

@@ -1,0 +1,47 @@
+# What every target of this project has in common.
+include(CheckCXXSourceCompiles)
+
+# Numbers are read and written with std::from_chars and std::to_chars for doubles.
+set(CMAKE_REQUIRED_FLAGS -std=c++17)
+check_cxx_source_compiles(
+  "#include <charconv>
+   int main() { double d = 0; return std::from_chars(\"1\", \"1\" + 1, d).ec == std::errc{} ? 0 : 1; }"
+  TRK_BRIDGE_HAS_FROM_CHARS)
+unset(CMAKE_REQUIRED_FLAGS)
+if(NOT TRK_BRIDGE_HAS_FROM_CHARS)
+  message(FATAL_ERROR "trk_bridge needs std::from_chars for double: libstdc++ 11 or later (GCC 11); "
+    "this compiler is ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}. Name a newer one with CXX=g++-11.")
+endif()
+
+add_library(trk_bridge_options INTERFACE)
+target_compile_options(trk_bridge_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+
+# trk_bridge_library(NAME SOURCE... [PUBLIC LIB...] [PRIVATE LIB...]): a layer, shared and installed.
+function(trk_bridge_library name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} SHARED ${ARG_UNPARSED_ARGUMENTS})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
+  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} trk_bridge_options)
+  install(TARGETS ${name} LIBRARY DESTINATION ${TRK_BRIDGE_LIB_DIR} ARCHIVE DESTINATION ${TRK_BRIDGE_LIB_DIR})
+endfunction()
+
+# trk_bridge_program(NAME SOURCE... [LIBS LIB...]): an installed program.
+function(trk_bridge_program name)
+  cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
+  add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBS} trk_bridge_options)
+  install(TARGETS ${name} RUNTIME DESTINATION ${TRK_BRIDGE_TOOL_DIR})
+endfunction()
+
+# trk_bridge_gtest(NAME SOURCE... [LIBS LIB...]): a unit test, run by ctest and, with ROS, by catkin's run_tests.
+function(trk_bridge_gtest name)
+  cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
+  if(TRK_BRIDGE_ROS)
+    catkin_add_gmock(${name} ${ARG_UNPARSED_ARGUMENTS})
+    target_link_libraries(${name} ${ARG_LIBS} trk_bridge_options trk_bridge_test_support gmock_main)
+  else()
+    add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
+    target_link_libraries(${name} ${ARG_LIBS} trk_bridge_options trk_bridge_test_support GTest::gmock_main)
+    add_test(NAME ${name} COMMAND ${name})
+  endif()
+endfunction()

@@ -1,0 +1,34 @@
+// Chip, pixels and lens: projection, rasterisation, distortion (camera model, "Chip" to "Distortion").
+#pragma once
+
+#include <Eigen/Core>
+
+#include "trk_bridge/camera/camera.h"
+
+namespace trk_bridge::camera {
+
+/// Pixels per millimetre and the pixel of the chip's centre, from the lower left corner of the image, y up.
+struct Raster {
+  double mx = 0, my = 0;
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  double width = 0, height = 0;  ///< of the image, pixels
+};
+/// Constants must have passed check().
+[[nodiscard]] Raster raster_of(const wire::CameraConstants&) noexcept;
+
+/// A point in the camera frame (m; x right, y forward, z up) to the undistorted chip (mm, from the chip's centre).
+[[nodiscard]] Result<Eigen::Vector2d> project(const Lens&, const Eigen::Vector3d& point) noexcept;
+
+/// Chip positions in mm from the chip's centre; the polynomial is about the optical axis.
+[[nodiscard]] Eigen::Vector2d undistort(const Lens&, const Eigen::Vector2d& distorted) noexcept;
+/// The inverse, by Newton on the radius to the last digits; not_monotonic where the polynomial folds before it gets there.
+[[nodiscard]] Result<Eigen::Vector2d> distort(const Lens&, const Eigen::Vector2d& undistorted) noexcept;
+
+/// The largest distorted radius (mm about the optical axis) up to which the polynomial is monotonic; infinite if it is.
+[[nodiscard]] double monotonic_radius(const Lens&) noexcept;
+
+/// Chip (mm) <-> pixel in ROS coordinates: origin in the centre of the top left pixel, y down.
+[[nodiscard]] Eigen::Vector2d to_pixel(const Raster&, const Eigen::Vector2d& chip) noexcept;
+[[nodiscard]] Eigen::Vector2d to_chip(const Raster&, const Eigen::Vector2d& pixel) noexcept;
+
+}  // namespace trk_bridge::camera

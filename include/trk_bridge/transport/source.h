@@ -1,0 +1,101 @@
+// Where records come from: one interface over UDP, shared memory, files and memory.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "trk_bridge/transport/endpoint.h"
+#include "trk_bridge/transport/sender.h"
+#include "trk_bridge/wire/codec.h"
+
+namespace trk_bridge::transport {
+
+/// An endpoint that cannot be opened or was written wrongly; the text names the endpoint and the reason.
+class TransportError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A record with where and when it came from.
+struct Sample {
+  wire::Record record;
+  wire::WireForm form;
+  std::int64_t arrival = 0;  ///< nanoseconds since 1970 UTC: the kernel's receive time for UDP, see FileTime for files
+  Sender sender;
+};
+
+/// What one call of Source::receive met.
+enum class Event : std::uint8_t {
+  sample,  ///< `Reception::sample` is good
+  malformed,  ///< one record was not sound: `fault`, `sample.sender` and `sample.arrival` tell of it; go on
+  idle,  ///< nothing came within the time given
+  stopped,  ///< stop() was called; every later call says so at once
+  ended,  ///< the last record of a file was given
+  failed,  ///< the source cannot go on: statistics().error says why
+};
+
+/// Filled by receive(); reuse one, so that nothing allocates.
+struct Reception {
+  Sample sample;
+  wire::Fault fault{wire::Reason::truncated};
+};
+
+/// How far a source has come. "Connected" is only ever said after a valid record.
+enum class SourceState : std::uint8_t {
+  waiting,  ///< for a segment, or bound and nothing received
+  nothing_valid,  ///< something comes, but none of it is trk
+  only_refused,  ///< something comes, but only from senders that are not allowed
+  receiving,  ///< at least one valid record has come
+  ended,
+  failed,
+};
+
+struct SourceStatistics {
+  SourceState state = SourceState::waiting;
+  std::uint64_t records = 0;  ///< valid ones handed out
+  std::uint64_t malformed = 0;
+  std::uint64_t refused = 0;  ///< datagrams of senders that are not allowed
+  std::uint64_t kernel_drops = 0;  ///< datagrams the kernel threw away because nobody read in time
+  std::uint64_t overwritten = 0;  ///< shared memory: sets written and replaced before they were seen
+  std::uint64_t unknown_format_bits = 0;  ///< records with bits above wire::known_format_bits
+  std::uint64_t reattached = 0;  ///< shared memory: segments followed after the first
+  Sender last_refused;
+  std::string error;  ///< when failed: one line for a person
+  std::string waiting_for;  ///< when waiting: "slot 7: no segment", "udp port 7000: bound, nothing received yet"
+};
+
+class Source {
+ public:
+  virtual ~Source() = default;
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  /// The next record, waiting at most `wait` for it (0: only what is there already; negative: without end). Blocks in
+  /// the kernel. One thread at a time. Does not allocate or log while records come.
+  [[nodiscard]] virtual Event receive(Reception& into, std::chrono::nanoseconds wait) = 0;
+
+  /// Wakes receive() at once and for good. Any thread, any number of times, safe in a signal handler.
+  virtual void stop() noexcept = 0;
+
+  /// A consistent snapshot. Any thread.
+  virtual SourceStatistics statistics() const = 0;
+
+  /// The endpoint as a person reads it: "udp port 7000 on every interface", "shm slot 7", "file take.trk".
+  virtual std::string name() const = 0;
+
+ protected:
+  Source() = default;
+};
+
+/// The only place that makes sources. Throws TransportError: a port in use, an address of no interface, a file with an
+/// error in line N (`take.trk:57: field 9 is not a number`), … A shared memory slot that does not exist yet is no error.
+/// `field_rate` (Hz) counts for files whose endpoint has no `rate`.
+std::unique_ptr<Source> open_source(const Endpoint&, double field_rate = 50.0);
+/// The same from a URL; its errors are TransportErrors, too.
+std::unique_ptr<Source> open_source(std::string_view url, double field_rate = 50.0);
+
+}  // namespace trk_bridge::transport

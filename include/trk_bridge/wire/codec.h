@@ -1,0 +1,65 @@
+// Records <-> bytes in memory: datagrams, ASCII text and binary images. Nothing here allocates, locks, logs, looks at
+// the locale or reads past what it was given; all functions may be called from any thread on separate objects.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+#include "trk_bridge/wire/fault.h"
+#include "trk_bridge/wire/layout.h"
+#include "trk_bridge/wire/record.h"
+
+namespace trk_bridge::wire {
+
+/// The longest datagram, and the longest line of a file with its newline.
+inline constexpr std::size_t max_datagram = 4096;
+/// DMC01, NUL, type, encoding.
+inline constexpr std::size_t header_size = 8;
+
+/// Room for any encoded record.
+using Buffer = std::array<char, max_datagram>;
+
+enum class Encoding : std::uint8_t { ascii, binary };
+
+/// How a datagram was encoded; `layout` counts for binary ones.
+struct WireForm {
+  Encoding encoding = Encoding::ascii;
+  Layout layout{};
+};
+
+struct Decoded {
+  Record record;
+  WireForm form;
+};
+
+/// One whole datagram. `sense` is what is known of its sender; it learns from good binary records.
+[[nodiscard]] tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutSense& sense) noexcept;
+
+/// One whole datagram into `buffer`; the view covers its bytes. ASCII ends in its NUL. A number that is not finite is
+/// refused (not_finite), as is a counter or id that the layout cannot hold (out_of_range; an id other than 0 in the document's
+/// generation is dropped, for it has no place there).
+[[nodiscard]] tl::expected<std::string_view, Fault> encode(const CameraParams&, WireForm, Buffer& buffer) noexcept;
+[[nodiscard]] tl::expected<std::string_view, Fault> encode(const CameraConstants&, WireForm, Buffer& buffer) noexcept;
+
+/// The ASCII payload without header and NUL, as it also stands in files. Shortest numbers that read back; a leading
+/// `I<id>` only when the id is not 0.
+[[nodiscard]] tl::expected<std::string_view, Fault> to_text(const CameraParams&, Buffer& buffer) noexcept;
+[[nodiscard]] tl::expected<std::string_view, Fault> to_text(const CameraConstants&, Buffer& buffer) noexcept;
+[[nodiscard]] tl::expected<CameraParams, Fault> params_from_text(std::string_view text) noexcept;
+[[nodiscard]] tl::expected<CameraConstants, Fault> constants_from_text(std::string_view text) noexcept;
+
+/// The binary image without header, as it also stands in shared memory; `image` must have the layout's size
+/// (wrong_size otherwise). A format mask is not judged: that is `decode`'s, which has to guess.
+[[nodiscard]] tl::expected<CameraParams, Fault> params_from_image(std::string_view image, Layout) noexcept;
+[[nodiscard]] tl::expected<CameraConstants, Fault> constants_from_image(std::string_view image, Layout) noexcept;
+[[nodiscard]] tl::expected<std::string_view, Fault> to_image(const CameraParams&, Layout, Buffer& buffer) noexcept;
+[[nodiscard]] tl::expected<std::string_view, Fault> to_image(const CameraConstants&, Layout, Buffer& buffer) noexcept;
+
+/// Whether the rotation part of a matrix is orthonormal with determinant +1 to 1e-3, and its bottom row 0 0 0 1.
+[[nodiscard]] bool is_rigid(const std::array<double, 16>& matrix) noexcept;
+
+}  // namespace trk_bridge::wire
