@@ -1,2 +1,44 @@
 # Messages and the catkin side of the package.
-find_package(catkin REQUIRED)
+find_package(catkin REQUIRED COMPONENTS
+  diagnostic_msgs
+  diagnostic_updater
+  geometry_msgs
+  message_generation
+  nodelet
+  pluginlib
+  roscpp
+  sensor_msgs
+  std_msgs
+  tf2_ros
+  xmlrpcpp
+)
+
+add_message_files(DIRECTORY msg FILES CameraConstants.msg CameraParams.msg)
+generate_messages(DEPENDENCIES std_msgs)
+
+catkin_package(
+  INCLUDE_DIRS include
+  LIBRARIES trk trk_bridge_camera trk_bridge_ros trk_bridge_transport trk_bridge_wire
+  CATKIN_DEPENDS
+    diagnostic_msgs
+    diagnostic_updater
+    geometry_msgs
+    message_runtime
+    nodelet
+    pluginlib
+    roscpp
+    sensor_msgs
+    std_msgs
+    tf2_ros
+    xmlrpcpp
+  DEPENDS EIGEN3
+)
+
+set(TRK_BRIDGE_LIB_DIR ${CATKIN_PACKAGE_LIB_DESTINATION})
+set(TRK_BRIDGE_BIN_DIR ${CATKIN_GLOBAL_BIN_DESTINATION})
+# Where rosrun looks; catkin_package() puts the programs of the devel space there, too.
+set(TRK_BRIDGE_TOOL_DIR ${CATKIN_PACKAGE_BIN_DESTINATION})
+set(TRK_BRIDGE_INCLUDE_DIR ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
+
+install(DIRECTORY config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(FILES nodelets.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
