@@ -14,15 +14,15 @@
 namespace trk_bridge::camera {
 
 enum class CameraReason : std::uint8_t {
-  not_finite,  ///< a number is NaN or infinite
-  not_a_rotation,  ///< the matrix is not orthonormal to 1e-3, is a reflection, or its bottom row is not 0 0 0 1
-  constants_needed,  ///< the format cannot be understood or made without constants, and none are known
-  bad_constants,  ///< constants whose image, chip or blanks leave no picture
+  not_finite,         ///< a number is NaN or infinite
+  not_a_rotation,     ///< the matrix is not orthonormal to 1e-3, is a reflection, or its bottom row is not 0 0 0 1
+  constants_needed,   ///< the format cannot be understood or made without constants, and none are known
+  bad_constants,      ///< constants whose image, chip or blanks leave no picture
   bad_field_of_view,  ///< an angle outside 0..180 degrees, or an image distance that is not positive
-  bad_format,  ///< a format to be made has unknown bits, or vertical and diagonal at once
-  not_monotonic,  ///< k1, k2 fold the image: no inverse over the range it is used in
-  behind_camera,  ///< a point that is not in front of the camera has no picture
-  no_fit,  ///< no distortion model comes near enough
+  bad_format,         ///< a format to be made has unknown bits, or vertical and diagonal at once
+  not_monotonic,      ///< k1, k2 fold the image: no inverse over the range it is used in
+  behind_camera,      ///< a point that is not in front of the camera has no picture
+  no_fit,             ///< no distortion model comes near enough
 };
 
 /// One line for a person.
@@ -30,10 +30,10 @@ std::string describe(CameraReason);
 
 /// Lens of the canonical camera.
 struct Lens {
-  double image_distance = 0;  ///< mm, more than 0
+  double image_distance = 0;                               ///< mm, more than 0
   Eigen::Vector2d center_shift = Eigen::Vector2d::Zero();  ///< mm on the chip, x right, y up
-  double k1 = 0, k2 = 0;  ///< mm^-2, mm^-4, distorted to undistorted
-  double focdist = 0;  ///< m
+  double k1 = 0, k2 = 0;                                   ///< mm^-2, mm^-4, distorted to undistorted
+  double focdist = 0;                                      ///< m
   double aperture = 0;
 };
 
@@ -47,7 +47,8 @@ template <typename T>
 using Result = tl::expected<T, CameraReason>;
 
 /// Whether constants describe a picture: sizes positive, blanks not negative and smaller than the image, all finite.
-Result<void> check(const wire::CameraConstants&) noexcept;
+/// The fake chip is not judged: where it is no use it is computed.
+[[nodiscard]] Result<void> check(const wire::CameraConstants&) noexcept;
 
 /// The pose alone, which needs no constants. The nearest rotation where the matrix is one to 1e-3.
 [[nodiscard]] Result<Eigen::Isometry3d> decode_pose(const wire::CameraParams&) noexcept;
@@ -59,18 +60,21 @@ Result<void> check(const wire::CameraConstants&) noexcept;
 [[nodiscard]] Result<wire::CameraParams> encode(const Camera&, std::uint32_t format,
                                                 const wire::CameraConstants* constants) noexcept;
 
-/// `params` told in `format`: id and counter stay, and a part (pose, lens) whose format options do not change keeps the very
-/// doubles it came with. `incoming` are the sender's constants, `outgoing` those for the receiver (see constants_for); either
-/// may be null where not needed.
+/// `params` told in `format`: id and counter stay. Each of pose, fov and centre shift whose own options do not change
+/// (keep_aspect, say, only concerns what is told in terms of the fake chip) keeps the very doubles it came with,
+/// whatever they are, unless both constants are sound and give it another meaning; k1, k2, focdist and aperture always
+/// do. From Euler to Euler the angles stay as well. `incoming` are the sender's constants, `outgoing` those for the
+/// receiver (see constants_for); either may be null where not needed.
 [[nodiscard]] Result<wire::CameraParams> reexpress(const wire::CameraParams& params, std::uint32_t format,
                                                    const wire::CameraConstants* incoming,
                                                    const wire::CameraConstants* outgoing) noexcept;
 
-/// Constants to send with parameters in `format`: the fake chip agrees with its aspect option.
+/// Constants to send with parameters in `format`: the fake chip agrees with its aspect option. One that agrees already
+/// to the digits of ASCII records (2e-5) is left alone, as are constants that do not pass check().
 [[nodiscard]] wire::CameraConstants constants_for(const wire::CameraConstants&, std::uint32_t format) noexcept;
 
-/// Canonical Euler angles (degrees) of a rotation studio_R_camera = Rz(pan) Rx(tilt) Ry(roll): pan and roll in (-180, 180],
-/// tilt in [-90, 90]; at tilt +-90 roll is 0.
+/// Canonical Euler angles (degrees) of a rotation studio_R_camera = Rz(pan) Rx(tilt) Ry(roll): pan and roll in (-180,
+/// 180], tilt in [-90, 90]; at tilt +-90 roll is 0.
 struct PanTiltRoll {
   double pan = 0, tilt = 0, roll = 0;
 };

@@ -1,0 +1,76 @@
+#include "trk_bridge/camera/camera.h"
+
+#include "lens.h"
+#include "pose.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::camera {
+namespace {
+
+/// The same as wire::check_writable, which explains itself in a string and so allocates.
+bool writable(std::uint32_t format) noexcept {
+  return (format & ~wire::known_format_bits) == 0 && !wire::has(format, wire::vertical | wire::diagonal);
+}
+
+}  // namespace
+
+std::string describe(CameraReason reason) {
+  switch (reason) {
+    case CameraReason::not_finite:
+      return "a number of the camera is not finite";
+    case CameraReason::not_a_rotation:
+      return "the matrix is not a rigid motion: its rotation is not orthonormal to 1e-3, is a reflection, or its "
+             "bottom "
+             "row is not 0 0 0 1";
+    case CameraReason::constants_needed:
+      return "the format needs camera constants (field of view, ignored blanks and shift in pixels do) and none are "
+             "known";
+    case CameraReason::bad_constants:
+      return "the camera constants leave no picture: image and chip must be larger than 0, blanks not negative and "
+             "smaller than the image";
+    case CameraReason::bad_field_of_view:
+      return "the field of view must be more than 0 and less than 180 degrees, the image distance more than 0 mm";
+    case CameraReason::bad_format:
+      return "no record can be made in this format: it has unknown bits, or vertical and diagonal at once";
+    case CameraReason::not_monotonic:
+      return "the distortion folds the image over: it has no inverse as far as the image reaches";
+    case CameraReason::behind_camera:
+      return "the point is not in front of the camera";
+    case CameraReason::no_fit:
+      return "no distortion model comes near the lens";
+  }
+  return "unknown reason";
+}
+
+Result<Camera> decode(const wire::CameraParams& params, const wire::CameraConstants* constants) noexcept {
+  const Result<Eigen::Isometry3d> pose = decode_pose(params);
+  if (!pose) return tl::unexpected(pose.error());
+  const Result<Lens> lens = decode_lens(params, constants);
+  if (!lens) return tl::unexpected(lens.error());
+  return Camera{*pose, *lens};
+}
+
+Result<wire::CameraParams> encode(const Camera& camera, std::uint32_t format,
+                                  const wire::CameraConstants* constants) noexcept {
+  if (!writable(format)) return tl::unexpected(CameraReason::bad_format);
+  wire::CameraParams params;
+  params.format = format;
+  if (const auto pose = encode_pose(camera.pose, params); !pose) return tl::unexpected(pose.error());
+  if (const auto lens = encode_lens(camera.lens, constants, params); !lens) return tl::unexpected(lens.error());
+  return params;
+}
+
+Result<wire::CameraParams> reexpress(const wire::CameraParams& params, std::uint32_t format,
+                                     const wire::CameraConstants* incoming,
+                                     const wire::CameraConstants* outgoing) noexcept {
+  if (!writable(format)) return tl::unexpected(CameraReason::bad_format);
+  wire::CameraParams told;
+  told.id = params.id;
+  told.counter = params.counter;
+  told.format = format;
+  if (const auto pose = reexpress_pose(params, told); !pose) return tl::unexpected(pose.error());
+  if (const auto lens = reexpress_lens(params, incoming, outgoing, told); !lens) return tl::unexpected(lens.error());
+  return told;
+}
+
+}  // namespace trk_bridge::camera

@@ -1,0 +1,239 @@
+#include "lens.h"
+
+#include <cmath>
+
+#include "degrees.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::camera {
+namespace {
+
+using wire::CameraConstants;
+using wire::has;
+
+/// Chip sizes in ASCII constants may carry no more than six digits, while one blank line in an image of any size in use
+/// moves the fake chip by more than this.
+constexpr double chip_tolerance = 2e-5;
+
+/// The part of the image that shows the chip, in pixels.
+Eigen::Array2d picture_size(const CameraConstants& c) noexcept {
+  return {static_cast<double>(c.image_width) - c.blank_left - c.blank_right,
+          static_cast<double>(c.image_height) - c.blank_top - c.blank_bottom};
+}
+
+Eigen::Array2d image_size(const CameraConstants& c) noexcept {
+  return {static_cast<double>(c.image_width), static_cast<double>(c.image_height)};
+}
+
+Eigen::Array2d chip_size(const CameraConstants& c) noexcept { return {c.chip_width, c.chip_height}; }
+
+Eigen::Array2d computed_fake_chip(const CameraConstants& c, std::uint32_t format) noexcept {
+  Eigen::Array2d growth = image_size(c) / picture_size(c);
+  if (has(format, wire::keep_aspect)) growth.y() = growth.x();
+  return growth * chip_size(c);
+}
+
+/// What the sender said it is, or what it must be.
+Eigen::Array2d fake_chip(const CameraConstants& c, std::uint32_t format) noexcept {
+  const Eigen::Array2d told(c.fake_chip_width, c.fake_chip_height);
+  return told.isFinite().all() && (told > 0).all() ? told : computed_fake_chip(c, format);
+}
+
+/// The options that fov depends on; vertical wins over diagonal.
+std::uint32_t fov_options(std::uint32_t format) noexcept {
+  if (!has(format, wire::field_of_view)) return 0;
+  std::uint32_t options = wire::field_of_view;
+  options |= has(format, wire::vertical) ? wire::vertical : format & wire::diagonal;
+  if (has(format, wire::ignore_blank)) options |= wire::ignore_blank | (format & wire::keep_aspect);
+  return options;
+}
+
+/// The options that the centre shift depends on. The fake chip counts only where the shift is in pixels of it.
+std::uint32_t shift_options(std::uint32_t format) noexcept {
+  const std::uint32_t scaled_by_fake_chip = wire::ignore_blank | wire::shift_in_pixels;
+  return format & (scaled_by_fake_chip | (has(format, scaled_by_fake_chip) ? wire::keep_aspect : 0U));
+}
+
+Result<void> check_needed(const CameraConstants* constants) noexcept {
+  if (constants == nullptr) return tl::unexpected(CameraReason::constants_needed);
+  return check(*constants);
+}
+
+/// What fov tells: an angle over `side` mm of chip, or, where that is 0, the image distance.
+struct FovTerms {
+  double side = 0;
+};
+bool operator==(const FovTerms& a, const FovTerms& b) noexcept { return a.side == b.side; }
+
+Result<FovTerms> fov_terms(std::uint32_t format, const CameraConstants* constants) noexcept {
+  if (!has(format, wire::field_of_view)) return FovTerms{};
+  if (const auto known = check_needed(constants); !known) return tl::unexpected(known.error());
+  const Eigen::Array2d chip = has(format, wire::ignore_blank) ? fake_chip(*constants, format) : chip_size(*constants);
+  if (has(format, wire::vertical)) return FovTerms{chip.y()};
+  if (has(format, wire::diagonal)) return FovTerms{std::hypot(chip.x(), chip.y())};
+  return FovTerms{chip.x()};
+}
+
+Result<double> image_distance_of(double fov, const FovTerms& terms) noexcept {
+  if (!std::isfinite(fov)) return tl::unexpected(CameraReason::not_finite);
+  double distance = fov;
+  if (terms.side > 0) {
+    if (!(fov > 0 && fov < 180)) return tl::unexpected(CameraReason::bad_field_of_view);
+    distance = terms.side / (2 * std::tan(fov / 2 / degrees_per_radian));
+  }
+  if (!(distance > 0) || !std::isfinite(distance)) return tl::unexpected(CameraReason::bad_field_of_view);
+  return distance;
+}
+
+Result<double> fov_of(double distance, const FovTerms& terms) noexcept {
+  if (!std::isfinite(distance)) return tl::unexpected(CameraReason::not_finite);
+  if (!(distance > 0)) return tl::unexpected(CameraReason::bad_field_of_view);
+  if (!(terms.side > 0)) return distance;
+  const double angle = 2 * std::atan2(terms.side / 2, distance) * degrees_per_radian;
+  // An image distance far from any lens can round to 0 or 180 degrees, which nobody could read back.
+  if (!(angle > 0 && angle < 180)) return tl::unexpected(CameraReason::bad_field_of_view);
+  return angle;
+}
+
+/// What the centre shift tells: (shift - offset) * scale, with the shift in mm on the chip.
+struct ShiftTerms {
+  Eigen::Array2d offset = Eigen::Array2d::Zero();
+  Eigen::Array2d scale = Eigen::Array2d::Ones();
+};
+bool operator==(const ShiftTerms& a, const ShiftTerms& b) noexcept {
+  return (a.offset == b.offset).all() && (a.scale == b.scale).all();
+}
+
+Result<ShiftTerms> shift_terms(std::uint32_t format, const CameraConstants* constants) noexcept {
+  ShiftTerms terms;
+  const bool in_pixels = has(format, wire::shift_in_pixels);
+  const bool ignore_blank = has(format, wire::ignore_blank);
+  if (!in_pixels && !ignore_blank) return terms;
+  if (const auto known = check_needed(constants); !known) return tl::unexpected(known.error());
+  const CameraConstants& c = *constants;
+  const Eigen::Array2d pixels_per_mm = picture_size(c) / chip_size(c);
+  if (ignore_blank) {
+    const Eigen::Array2d asymmetry(static_cast<double>(c.blank_left) - c.blank_right,
+                                   static_cast<double>(c.blank_bottom) - c.blank_top);
+    terms.offset = asymmetry / (2 * pixels_per_mm);
+  }
+  if (in_pixels) terms.scale = ignore_blank ? (image_size(c) / fake_chip(c, format)).eval() : pixels_per_mm;
+  return terms;
+}
+
+Result<Eigen::Vector2d> shift_of(const Eigen::Array2d& told, const ShiftTerms& terms) noexcept {
+  const Eigen::Array2d shift = told / terms.scale + terms.offset;
+  if (!shift.isFinite().all()) return tl::unexpected(CameraReason::not_finite);
+  return shift.matrix();
+}
+
+Result<Eigen::Array2d> told_shift(const Eigen::Vector2d& shift, const ShiftTerms& terms) noexcept {
+  const Eigen::Array2d told = (shift.array() - terms.offset) * terms.scale + 0.0;
+  if (!told.isFinite().all()) return tl::unexpected(CameraReason::not_finite);
+  return told;
+}
+
+/// Whether numbers told under `a` mean the same under `b` although their options agree. Where either cannot be known,
+/// there are no constants by which a receiver could tell a difference.
+template <typename Terms>
+bool same_meaning(const Result<Terms>& a, const Result<Terms>& b) noexcept {
+  return !a || !b || *a == *b;
+}
+
+Result<double> reexpress_fov(const wire::CameraParams& params, const CameraConstants* incoming, std::uint32_t format,
+                             const CameraConstants* outgoing) noexcept {
+  const Result<FovTerms> from = fov_terms(params.format, incoming);
+  const Result<FovTerms> to = fov_terms(format, outgoing);
+  if (fov_options(params.format) == fov_options(format) && same_meaning(from, to)) return params.fov;
+  if (!from) return tl::unexpected(from.error());
+  if (!to) return tl::unexpected(to.error());
+  const Result<double> distance = image_distance_of(params.fov, *from);
+  return distance ? fov_of(*distance, *to) : distance;
+}
+
+Result<Eigen::Array2d> reexpress_shift(const wire::CameraParams& params, const CameraConstants* incoming,
+                                       std::uint32_t format, const CameraConstants* outgoing) noexcept {
+  const Result<ShiftTerms> from = shift_terms(params.format, incoming);
+  const Result<ShiftTerms> to = shift_terms(format, outgoing);
+  const Eigen::Array2d told(params.center_x, params.center_y);
+  if (shift_options(params.format) == shift_options(format) && same_meaning(from, to)) return told;
+  if (!from) return tl::unexpected(from.error());
+  if (!to) return tl::unexpected(to.error());
+  const Result<Eigen::Vector2d> shift = shift_of(told, *from);
+  if (!shift) return tl::unexpected(shift.error());
+  return told_shift(*shift, *to);
+}
+
+}  // namespace
+
+Result<void> check(const CameraConstants& c) noexcept {
+  const Eigen::Array4i blanks(c.blank_left, c.blank_right, c.blank_top, c.blank_bottom);
+  const bool sound = c.image_width > 0 && c.image_height > 0 && (blanks >= 0).all() && (picture_size(c) > 0).all() &&
+                     chip_size(c).isFinite().all() && (chip_size(c) > 0).all();
+  if (!sound) return tl::unexpected(CameraReason::bad_constants);
+  return {};
+}
+
+CameraConstants constants_for(const CameraConstants& constants, std::uint32_t format) noexcept {
+  CameraConstants told = constants;
+  if (!check(constants)) return told;
+  const Eigen::Array2d computed = computed_fake_chip(constants, format);
+  const Eigen::Array2d known(constants.fake_chip_width, constants.fake_chip_height);
+  if (((known - computed).abs() <= chip_tolerance * computed).all()) return told;
+  told.fake_chip_width = computed.x();
+  told.fake_chip_height = computed.y();
+  return told;
+}
+
+Result<Lens> decode_lens(const wire::CameraParams& params, const CameraConstants* constants) noexcept {
+  const Result<FovTerms> fov = fov_terms(params.format, constants);
+  if (!fov) return tl::unexpected(fov.error());
+  const Result<ShiftTerms> shift = shift_terms(params.format, constants);
+  if (!shift) return tl::unexpected(shift.error());
+  const Result<double> distance = image_distance_of(params.fov, *fov);
+  if (!distance) return tl::unexpected(distance.error());
+  const Result<Eigen::Vector2d> center = shift_of({params.center_x, params.center_y}, *shift);
+  if (!center) return tl::unexpected(center.error());
+  const Eigen::Array4d rest(params.k1, params.k2, params.focdist, params.aperture);
+  if (!rest.isFinite().all()) return tl::unexpected(CameraReason::not_finite);
+  return Lens{*distance, *center, params.k1, params.k2, params.focdist, params.aperture};
+}
+
+Result<void> encode_lens(const Lens& lens, const CameraConstants* constants, wire::CameraParams& params) noexcept {
+  const Result<FovTerms> fov = fov_terms(params.format, constants);
+  if (!fov) return tl::unexpected(fov.error());
+  const Result<ShiftTerms> shift = shift_terms(params.format, constants);
+  if (!shift) return tl::unexpected(shift.error());
+  const Result<double> told_fov = fov_of(lens.image_distance, *fov);
+  if (!told_fov) return tl::unexpected(told_fov.error());
+  const Result<Eigen::Array2d> center = told_shift(lens.center_shift, *shift);
+  if (!center) return tl::unexpected(center.error());
+  const Eigen::Array4d rest(lens.k1, lens.k2, lens.focdist, lens.aperture);
+  if (!rest.isFinite().all()) return tl::unexpected(CameraReason::not_finite);
+  params.fov = *told_fov;
+  params.center_x = center->x();
+  params.center_y = center->y();
+  params.k1 = lens.k1;
+  params.k2 = lens.k2;
+  params.focdist = lens.focdist;
+  params.aperture = lens.aperture;
+  return {};
+}
+
+Result<void> reexpress_lens(const wire::CameraParams& params, const CameraConstants* incoming,
+                            const CameraConstants* outgoing, wire::CameraParams& told) noexcept {
+  const Result<double> fov = reexpress_fov(params, incoming, told.format, outgoing);
+  if (!fov) return tl::unexpected(fov.error());
+  const Result<Eigen::Array2d> center = reexpress_shift(params, incoming, told.format, outgoing);
+  if (!center) return tl::unexpected(center.error());
+  told.fov = *fov;
+  told.center_x = center->x();
+  told.center_y = center->y();
+  told.k1 = params.k1;
+  told.k2 = params.k2;
+  told.focdist = params.focdist;
+  told.aperture = params.aperture;
+  return {};
+}
+
+}  // namespace trk_bridge::camera
