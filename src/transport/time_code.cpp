@@ -1,0 +1,71 @@
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "trk_bridge/transport/take_file.h"
+
+namespace trk_bridge::transport {
+namespace {
+
+struct Part {
+  int TimeCode::*value;
+  int least, most;
+};
+
+constexpr std::array<Part, 5> parts{{{&TimeCode::hours, 0, 23},
+                                     {&TimeCode::minutes, 0, 59},
+                                     {&TimeCode::seconds, 0, 59},
+                                     {&TimeCode::frames, 0, 99},
+                                     {&TimeCode::field, 1, 2}}};
+
+bool parse_part(std::string_view digits, const Part& part, TimeCode& into) {
+  if (digits.empty() || digits.size() > 2) return false;
+  int value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size()) return false;
+  if (value < part.least || value > part.most) return false;
+  into.*part.value = value;
+  return true;
+}
+
+}  // namespace
+
+tl::expected<TimeCode, std::string> parse_time_code(std::string_view text) {
+  TimeCode code;
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool is_last = i + 1 == parts.size();
+    const std::size_t colon = is_last ? rest.size() : rest.find(':');
+    if (colon == std::string_view::npos || !parse_part(rest.substr(0, colon), parts[i], code)) {
+      return tl::unexpected(
+          "\"" + std::string(text.substr(0, 40)) +
+          "\" is no time code: HH:MM:SS:FF:D with hours 0 to 23, minutes and seconds 0 to 59, frames and "
+          "field 1 or 2");
+    }
+    rest.remove_prefix(is_last ? colon : colon + 1);
+  }
+  return code;
+}
+
+std::string to_string(const TimeCode& code) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%02d:%02d:%02d:%02d:%d", code.hours, code.minutes, code.seconds, code.frames,
+                code.field);
+  return text.data();
+}
+
+tl::expected<std::int64_t, std::string> nanoseconds_of(const TimeCode& code, double field_rate, std::uint64_t index) {
+  const std::int64_t nominal = std::llround(field_rate);
+  const std::int64_t field_of_second = 2 * static_cast<std::int64_t>(code.frames) + code.field - 1;
+  if (field_of_second >= nominal) {
+    return tl::unexpected("time code " + to_string(code) + " has a field that a second of " + std::to_string(nominal) +
+                          " fields does not have");
+  }
+  const std::int64_t seconds = (code.hours * 60LL + code.minutes) * 60LL + code.seconds;
+  const long double fields =
+      static_cast<long double>(seconds * nominal + field_of_second) + static_cast<long double>(index);
+  return static_cast<std::int64_t>(std::llround(fields * 1e9L / static_cast<long double>(field_rate)));
+}
+
+}  // namespace trk_bridge::transport
