@@ -12,6 +12,8 @@ std::string describe(const SinkFault& fault) {
       return "parameters came before the constants that a file begins with";
     case SinkReason::constants_changed:
       return "a file holds one set of constants, and others came after the first";
+    case SinkReason::other_camera:
+      return "a file holds one camera, and this record has another id than the constants in the file";
     case SinkReason::system:
       return "the system refused: " + std::generic_category().message(fault.error_number);
     case SinkReason::gone:

@@ -114,19 +114,24 @@ TakeWriter::~TakeWriter() { static_cast<void>(close()); }
 tl::expected<void, SinkFault> TakeWriter::write(const wire::CameraConstants& constants) {
   if (fd_ < 0) return tl::unexpected(SinkFault{SinkReason::closed});
   if (constants_) {
-    if (*constants_ == constants) return {};
-    return tl::unexpected(SinkFault{SinkReason::constants_changed});
+    if (constants.id != constants_->id) return tl::unexpected(SinkFault{SinkReason::other_camera});
+    constants_count_ = *constants_ == constants;
+    if (!constants_count_) return tl::unexpected(SinkFault{SinkReason::constants_changed});
+    return {};
   }
   const auto text = wire::to_text(constants, buffer_);
   if (!text) return encode_fault(text.error());
   if (auto written = append(*text); !written) return written;
   constants_ = constants;
+  constants_count_ = true;
   return {};
 }
 
 tl::expected<void, SinkFault> TakeWriter::write(const wire::CameraParams& params) {
   if (fd_ < 0) return tl::unexpected(SinkFault{SinkReason::closed});
   if (!constants_) return tl::unexpected(SinkFault{SinkReason::no_constants});
+  if (params.id != constants_->id) return tl::unexpected(SinkFault{SinkReason::other_camera});
+  if (!constants_count_) return tl::unexpected(SinkFault{SinkReason::constants_changed});
   const auto text = wire::to_text(params, buffer_);
   if (!text) return encode_fault(text.error());
   return append(*text);

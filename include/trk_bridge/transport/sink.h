@@ -17,7 +17,8 @@ namespace trk_bridge::transport {
 enum class SinkReason : std::uint8_t {
   not_encodable,  ///< `fault` says which field
   no_constants,  ///< a file begins with constants: none were written before the first parameters
-  constants_changed,  ///< a file holds one set of constants: others came after the first
+  constants_changed,  ///< a file holds one set of constants: others came, or parameters that belong to them
+  other_camera,  ///< a file holds one camera: the id is not that of its constants
   system,  ///< the kernel refused: `error_number`
   gone,  ///< the segment was removed; the sink tries to make it anew at the next write
   closed,  ///< close() was called before

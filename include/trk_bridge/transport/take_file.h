@@ -62,7 +62,8 @@ class TakeWriter {
   TakeWriter(const TakeWriter&) = delete;
   TakeWriter& operator=(const TakeWriter&) = delete;
 
-  /// Once, before the first parameters. The same again is no fault and writes nothing; others are constants_changed.
+  /// Once, before the first parameters. The same again is no fault and writes nothing. Others of that id are
+  /// constants_changed, as are all parameters until the first ones come again; other ids are other_camera.
   [[nodiscard]] tl::expected<void, SinkFault> write(const wire::CameraConstants&);
   /// One video field; no_constants before the constants. A line that could not be written whole is not in the file.
   [[nodiscard]] tl::expected<void, SinkFault> write(const wire::CameraParams&);
@@ -82,6 +83,7 @@ class TakeWriter {
   int fd_ = -1;
   std::int64_t size_ = 0;  // of the whole lines; what lies behind is what is left of a failed write
   std::optional<wire::CameraConstants> constants_;
+  bool constants_count_ = false;  // no others have come since
   wire::Buffer buffer_{};
 };
 

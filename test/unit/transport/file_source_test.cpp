@@ -220,7 +220,8 @@ TEST_F(PlayFile, WhatTheSinkWroteComesBack) {
   params.format = 1;
   params.counter = 5;
   EXPECT_EQ(sink->write(params).error().reason, SinkReason::no_constants);
-  const auto constants = test::constants_of(test::read_jsonl("field/identified_lp64/constants.jsonl")[0]["fields"]);
+  auto constants = test::constants_of(test::read_jsonl("field/identified_lp64/constants.jsonl")[0]["fields"]);
+  constants.id = params.id;
   ASSERT_TRUE(sink->write(constants));
   ASSERT_TRUE(sink->write(constants));
   ASSERT_TRUE(sink->write(params));

@@ -64,6 +64,7 @@ TEST_F(WriteTake, EveryDoubleReadsBackToTheLastBit) {
     ASSERT_TRUE(writer.write(constants));
     for (const auto& line : test::read_jsonl("field/identified_lp64/params.jsonl")) {
       written.push_back(test::params_of(line["fields"]));
+      written.back().id = constants.id;
       // The bottom row is no part of the text.
       if ((written.back().format & 1) == 0) {
         for (std::size_t j = 0; j < 4; ++j) written.back().matrix[4 * j + 3] = j == 3 ? 1 : 0;
@@ -146,12 +147,35 @@ TEST_F(WriteTake, OnlyOneWriterAtATime) {
 TEST_F(WriteTake, ConstantsComeFirstAndStay) {
   TakeWriter writer(path, code, false);
   EXPECT_EQ(writer.write(some_params(1)).error().reason, SinkReason::no_constants);
-  auto constants = some_constants();
+  const auto constants = some_constants();
   ASSERT_TRUE(writer.write(constants));
   EXPECT_TRUE(writer.write(constants)) << "the same again is no change";
-  constants.blank_left += 1;
-  EXPECT_EQ(writer.write(constants).error().reason, SinkReason::constants_changed);
   EXPECT_TRUE(writer.write(some_params(2)));
+
+  auto others = constants;
+  others.blank_left += 1;
+  EXPECT_EQ(writer.write(others).error().reason, SinkReason::constants_changed);
+  EXPECT_EQ(writer.write(some_params(3)).error().reason, SinkReason::constants_changed) << "they belong to the others";
+  EXPECT_TRUE(writer.write(constants));
+  EXPECT_TRUE(writer.write(some_params(4)));
+  ASSERT_TRUE(writer.close());
+  const Take take = read_take(path);
+  EXPECT_EQ(take.constants, constants);
+  ASSERT_EQ(take.params.size(), 2u);
+  EXPECT_EQ(take.params[1].counter, 4u);
+}
+
+TEST_F(WriteTake, AFileHoldsOneCamera) {
+  TakeWriter writer(path, code, false);
+  auto constants = some_constants();
+  auto params = some_params(1);
+  constants.id = params.id = 3;
+  ASSERT_TRUE(writer.write(constants));
+  constants.id = 5;
+  EXPECT_EQ(writer.write(constants).error().reason, SinkReason::other_camera);
+  EXPECT_TRUE(writer.write(params)) << "the constants of another camera change nothing";
+  params.id = 5;
+  EXPECT_EQ(writer.write(params).error().reason, SinkReason::other_camera);
   ASSERT_TRUE(writer.close());
   EXPECT_EQ(read_take(path).params.size(), 1u);
 }
