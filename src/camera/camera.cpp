@@ -37,7 +37,10 @@ std::string describe(CameraReason reason) {
     case CameraReason::behind_camera:
       return "the point is not in front of the camera";
     case CameraReason::no_fit:
-      return "no distortion model comes near the lens";
+      return "no distortion model can be fitted to the lens in finite numbers";
+    case CameraReason::bad_calibration:
+      return "K must be fx 0 cx 0 fy cy 0 0 1 with fx and fy more than 0, D have 0, 4, 5 or 8 coefficients, and all be "
+             "finite";
   }
   return "unknown reason";
 }

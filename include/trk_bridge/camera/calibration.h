@@ -36,30 +36,48 @@ inline constexpr double plumb_bob_tolerance = 0.01;
 /// K for a lens and constants that have passed check().
 [[nodiscard]] std::array<double, 9> camera_matrix(const Lens&, const wire::CameraConstants&) noexcept;
 
-/// Fits D and keeps it as long as k1, k2, image distance and reach stay, so that a moving camera costs nothing. One a
-/// camera; not synchronised. calibrate() allocates nothing.
+/// Fits D and keeps it as long as k1, k2, the reach of the image and the pixels' size stay, so that a moving camera
+/// costs nothing; a change of image distance alone only scales it. One a camera; not synchronised. Nothing here
+/// allocates.
 class Calibrator {
  public:
+  /// The fit covers the image to its farthest corner from the optical axis, no further: whoever projects points far
+  /// outside of the image must clip first, since there the lens itself may fold. The best model is told however near it
+  /// comes, with its residual, for the caller to warn of; errors are bad_constants, bad_field_of_view (image distance),
+  /// not_finite, not_monotonic (k1, k2 fold within the image) and no_fit.
   [[nodiscard]] Result<Calibration> calibrate(const Lens&, const wire::CameraConstants&) noexcept;
+
+  /// How many fits were made so far.
+  std::uint64_t fits() const noexcept { return fits_; }
 
  private:
   struct Key {
-    double k1 = 0, k2 = 0, image_distance = 0, reach = 0, pixels_per_mm = 0;
+    double k1 = 0, k2 = 0, reach = 0, pixels_per_mm = 0;
   };
-  std::optional<Key> key_;
-  Distortion fitted_;
+  struct Fit {
+    Key key;
+    double undistorted_reach = 0;  // mm
+    Distortion distortion;         // for an image distance of undistorted_reach
+  };
+  static Result<Fit> fit(const Key&) noexcept;
+
+  std::optional<Fit> fit_;
+  std::uint64_t fits_ = 0;
 };
 
-/// What a CameraInfo says of a lens, in trk's terms.
+/// What a CameraInfo says of a lens, in trk's terms, and what trk cannot tell of it. Worst over the image, in pixels.
 struct FittedLens {
-  Lens lens;  ///< focdist and aperture are 0: CameraInfo does not know them
-  double residual = 0;  ///< worst error of the radial fit over the image, pixels
-  double tangential = 0;  ///< worst displacement by p1, p2 over the image, pixels: lost, trk cannot tell it
+  Lens lens;              ///< focdist and aperture are 0: CameraInfo does not know them
+  double residual = 0;    ///< error of the radial fit
+  double tangential = 0;  ///< displacement by p1, p2: lost
+  double aspect = 0;      ///< error of rows where fy does not agree with the image distance of fx and the chip: lost
 };
 
-/// The way back: K, D and the chip's size in `constants` (mm; blanks as they are to be sent) to k1, k2 in mm.
-/// `d` has 0, 4, 5 or 8 coefficients.
+/// The way back: K, D and the chip's size in `constants` (mm; blanks as they are to be sent) to k1, k2 in mm. The image
+/// distance is that of fx. `d` has 0, 4, 5 or 8 coefficients (plumb_bob without k3, plumb_bob, rational_polynomial).
+/// Errors are bad_constants, bad_calibration, and not_monotonic where D, or k1 and k2 fitted to it, fold within the
+/// image. Takes about a tenth of a millisecond: keep the result while K and D stay.
 [[nodiscard]] Result<FittedLens> lens_of(const std::array<double, 9>& k, const std::vector<double>& d,
-                                         const wire::CameraConstants& constants);
+                                         const wire::CameraConstants& constants) noexcept;
 
 }  // namespace trk_bridge::camera

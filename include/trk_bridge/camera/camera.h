@@ -22,7 +22,8 @@ enum class CameraReason : std::uint8_t {
   bad_format,         ///< a format to be made has unknown bits, or vertical and diagonal at once
   not_monotonic,      ///< k1, k2 fold the image: no inverse over the range it is used in
   behind_camera,      ///< a point that is not in front of the camera has no picture
-  no_fit,             ///< no distortion model comes near enough
+  no_fit,             ///< no distortion model can be fitted in finite numbers
+  bad_calibration,    ///< K or D of a CameraInfo that no camera has, or of a kind that is not known
 };
 
 /// One line for a person.

@@ -17,15 +17,21 @@ struct Raster {
 [[nodiscard]] Raster raster_of(const wire::CameraConstants&) noexcept;
 
 /// A point in the camera frame (m; x right, y forward, z up) to the undistorted chip (mm, from the chip's centre).
+/// behind_camera unless y > 0.
 [[nodiscard]] Result<Eigen::Vector2d> project(const Lens&, const Eigen::Vector3d& point) noexcept;
 
 /// Chip positions in mm from the chip's centre; the polynomial is about the optical axis.
 [[nodiscard]] Eigen::Vector2d undistort(const Lens&, const Eigen::Vector2d& distorted) noexcept;
-/// The inverse, by Newton on the radius to the last digits; not_monotonic where the polynomial folds before it gets there.
+/// The inverse, by Newton on the radius to the last digits; not_monotonic where the polynomial folds before it gets
+/// there.
 [[nodiscard]] Result<Eigen::Vector2d> distort(const Lens&, const Eigen::Vector2d& undistorted) noexcept;
 
-/// The largest distorted radius (mm about the optical axis) up to which the polynomial is monotonic; infinite if it is.
+/// The largest distorted radius (mm about the optical axis) up to which the polynomial is monotonic; infinite where it
+/// never folds.
 [[nodiscard]] double monotonic_radius(const Lens&) noexcept;
+
+/// The farthest that the image, blanks and all, reaches from the optical axis on the chip (mm, distorted).
+[[nodiscard]] double image_reach(const Lens&, const Raster&) noexcept;
 
 /// Chip (mm) <-> pixel in ROS coordinates: origin in the centre of the top left pixel, y down.
 [[nodiscard]] Eigen::Vector2d to_pixel(const Raster&, const Eigen::Vector2d& chip) noexcept;

@@ -1,0 +1,34 @@
+// Radial distortion from undistorted to distorted as OpenCV tells it, fitted to the document's polynomial. Scale-free:
+// all radii are in units of the farthest undistorted one.
+#pragma once
+
+#include <array>
+
+#include "root.h"
+#include "trk_bridge/camera/calibration.h"
+
+namespace trk_bridge::camera {
+
+/// r_d / r_u as a function of the squared undistorted radius s: (1 + k1 s + k2 s^2 + k3 s^3) / (1 + k4 s + k5 s^2 + k6
+/// s^3).
+struct RadialModel {
+  std::array<double, 6> k{};
+
+  /// The distorted radius and its slope at undistorted radius r.
+  ValueAndSlope distorted(double r) const noexcept;
+  /// Whether the denominator stays positive for radii up to r.
+  bool has_no_pole(double r) const noexcept;
+};
+
+struct RadialFit {
+  DistortionModel model = DistortionModel::plumb_bob;
+  RadialModel radial;
+  double residual = 0;  ///< worst error of the distorted radius
+};
+
+/// For r_u = r_d (1 + a1 r_d^2 + a2 r_d^4), increasing over 0 <= r_d <= reach, where r_u is 1. plumb_bob where its
+/// residual is at most `tolerance`, else what is best of it and rational_polynomials without a pole up to there,
+/// however far off that is. no_fit when it is not finite.
+[[nodiscard]] Result<RadialFit> fit_radial(double a1, double a2, double reach, double tolerance) noexcept;
+
+}  // namespace trk_bridge::camera
