@@ -59,4 +59,9 @@ tl::expected<Url, std::string> split_url(std::string_view url) {
   return parts;
 }
 
+std::string udp_url(const std::string& host, std::uint16_t port) {
+  const bool ipv6 = host.find(':') != std::string::npos;
+  return "udp://" + (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+}
+
 }  // namespace trk_bridge::transport

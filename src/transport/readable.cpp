@@ -1,0 +1,48 @@
+#include "readable.h"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <ctime>
+
+namespace trk_bridge::transport {
+
+namespace {
+
+using std::chrono::nanoseconds;
+using std::chrono::steady_clock;
+
+// Longer waits are told as endless: their end would be past what the clock can tell.
+constexpr nanoseconds longest_wait = std::chrono::hours(24 * 365 * 100);
+
+}  // namespace
+
+Deadline::Deadline(nanoseconds wait) noexcept : endless_(wait < nanoseconds::zero() || wait > longest_wait) {
+  if (!endless_) at_ = steady_clock::now() + wait;
+}
+
+nanoseconds Deadline::left() const noexcept {
+  return std::max(nanoseconds::zero(), nanoseconds(at_ - steady_clock::now()));
+}
+
+Wake wait_readable(int fd, const StopEvent& stop, const Deadline& deadline) noexcept {
+  std::array<pollfd, 2> watched{{{fd, POLLIN, 0}, {stop.fd(), POLLIN, 0}}};
+  for (;;) {
+    timespec timeout{};
+    if (!deadline.is_endless()) {
+      const auto left = deadline.left();
+      const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(left);
+      timeout.tv_sec = static_cast<time_t>(seconds.count());
+      timeout.tv_nsec = static_cast<long>((left - seconds).count());
+    }
+    const int ready = ::ppoll(watched.data(), watched.size(), deadline.is_endless() ? nullptr : &timeout, nullptr);
+    if (stop.is_set()) return Wake::stopped;
+    if (ready > 0) return Wake::readable;
+    if (ready == 0) return Wake::timeout;
+    if (errno != EINTR) return Wake::failed;
+  }
+}
+
+}  // namespace trk_bridge::transport

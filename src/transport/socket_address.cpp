@@ -1,0 +1,148 @@
+#include "socket_address.h"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <netinet/in.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "descriptor.h"
+#include "trk_bridge/transport/source.h"
+
+namespace trk_bridge::transport {
+
+namespace {
+
+template <typename T>
+T as(const sockaddr_storage& storage) noexcept {
+  static_assert(sizeof(T) <= sizeof(sockaddr_storage));
+  T address;
+  std::memcpy(&address, &storage, sizeof address);
+  return address;
+}
+
+template <typename T>
+SocketAddress from(const T& address) noexcept {
+  SocketAddress to;
+  std::memcpy(&to.storage, &address, sizeof address);
+  to.length = sizeof address;
+  return to;
+}
+
+struct Lookup {
+  int error = 0;  // of getaddrinfo
+  std::vector<SocketAddress> addresses;
+};
+
+Lookup look_up(const std::string& host, std::uint16_t port, int flags) {
+  addrinfo hints{};
+  hints.ai_family = AF_UNSPEC;
+  hints.ai_socktype = SOCK_DGRAM;
+  hints.ai_flags = flags;
+  addrinfo* list = nullptr;
+  Lookup lookup;
+  lookup.error = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &list);
+  if (lookup.error != 0) return lookup;
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(list, &::freeaddrinfo);
+  for (const addrinfo* entry = list; entry != nullptr; entry = entry->ai_next) {
+    if (entry->ai_family != AF_INET && entry->ai_family != AF_INET6) continue;
+    SocketAddress& address = lookup.addresses.emplace_back();
+    std::memcpy(&address.storage, entry->ai_addr, entry->ai_addrlen);
+    address.length = entry->ai_addrlen;
+  }
+  return lookup;
+}
+
+}  // namespace
+
+std::vector<SocketAddress> resolve(const std::string& host, std::uint16_t port) {
+  Lookup lookup = look_up(host, port, 0);
+  if (lookup.error != 0) {
+    const std::string reason =
+        lookup.error == EAI_SYSTEM ? std::generic_category().message(errno) : std::string(::gai_strerror(lookup.error));
+    throw TransportError("host \"" + host + "\": " + reason);
+  }
+  if (lookup.addresses.empty()) {
+    throw TransportError("host \"" + host + "\": has neither an IPv4 nor an IPv6 address");
+  }
+  std::stable_partition(lookup.addresses.begin(), lookup.addresses.end(),
+                        [](const SocketAddress& address) { return address.family() == AF_INET; });
+  return std::move(lookup.addresses);
+}
+
+std::optional<SocketAddress> numeric_address(const std::string& text) {
+  const Lookup lookup = look_up(text, 0, AI_NUMERICHOST);
+  if (lookup.addresses.empty()) return {};
+  return lookup.addresses.front();
+}
+
+SocketAddress any_ipv6(std::uint16_t port) noexcept {
+  sockaddr_in6 address{};
+  address.sin6_family = AF_INET6;
+  address.sin6_port = htons(port);
+  address.sin6_addr = in6addr_any;
+  return from(address);
+}
+
+SocketAddress any_ipv4(std::uint16_t port) noexcept {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_ANY);
+  return from(address);
+}
+
+Sender sender_of(const sockaddr_storage& storage) noexcept {
+  Sender sender;
+  if (storage.ss_family == AF_INET) {
+    const auto address = as<sockaddr_in>(storage);
+    sender.kind = SenderKind::ipv4;
+    sender.number = ntohs(address.sin_port);
+    std::memcpy(sender.address.data(), &address.sin_addr, sizeof address.sin_addr);
+  } else if (storage.ss_family == AF_INET6) {
+    const auto address = as<sockaddr_in6>(storage);
+    const bool mapped = IN6_IS_ADDR_V4MAPPED(&address.sin6_addr);
+    sender.kind = mapped ? SenderKind::ipv4 : SenderKind::ipv6;
+    sender.number = ntohs(address.sin6_port);
+    std::memcpy(sender.address.data(), address.sin6_addr.s6_addr + (mapped ? 12 : 0), mapped ? 4 : 16);
+  }
+  return sender;
+}
+
+bool is_any(const SocketAddress& address) noexcept {
+  if (address.family() == AF_INET) return as<sockaddr_in>(address.storage).sin_addr.s_addr == htonl(INADDR_ANY);
+  const auto ipv6 = as<sockaddr_in6>(address.storage);
+  return IN6_IS_ADDR_UNSPECIFIED(&ipv6.sin6_addr);
+}
+
+bool is_multicast(const SocketAddress& address) noexcept {
+  if (address.family() == AF_INET) return IN_MULTICAST(ntohl(as<sockaddr_in>(address.storage).sin_addr.s_addr));
+  const auto ipv6 = as<sockaddr_in6>(address.storage);
+  return IN6_IS_ADDR_MULTICAST(&ipv6.sin6_addr);
+}
+
+bool is_broadcast(const SocketAddress& address) noexcept {
+  if (address.family() != AF_INET) return false;
+  // The kernel refuses broadcast, and that alone, with EACCES to a socket that did not ask for it. Nothing is sent.
+  const Descriptor probe(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  auto ipv4 = as<sockaddr_in>(address.storage);
+  if (ipv4.sin_port == 0) ipv4.sin_port = htons(9);
+  const SocketAddress target = from(ipv4);
+  return probe.is_open() && ::connect(probe.get(), target.get(), target.length) != 0 && errno == EACCES;
+}
+
+SocketAddress bound_address(int fd) {
+  SocketAddress address;
+  address.length = sizeof address.storage;
+  if (::getsockname(fd, address.get(), &address.length) != 0) {
+    throw TransportError("the socket does not tell its port: " + std::generic_category().message(errno));
+  }
+  return address;
+}
+
+}  // namespace trk_bridge::transport
