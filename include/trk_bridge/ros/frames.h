@@ -1,0 +1,21 @@
+// Frames and signs on the ROS side: the one place that knows both.
+#pragma once
+
+#include <geometry_msgs/Transform.h>
+#include <Eigen/Geometry>
+
+namespace trk_bridge::ros {
+
+/// A pose as tf tells it: translation in m and a unit quaternion with w >= 0, so that equal rotations give equal
+/// messages. With `studio_T_camera` it is the transform of parent studio frame and child camera frame; both are z-up
+/// as REP 103 wants them up, the camera looking along its y axis.
+geometry_msgs::Transform to_transform(const Eigen::Isometry3d& parent_T_child);
+
+/// The way back. The quaternion is normalised; it must not be zero.
+Eigen::Isometry3d to_isometry(const geometry_msgs::Transform&);
+
+/// The optical frame (REP 103, suffix `_optical`: x right, y down, z forward) in the camera frame (x right, y forward,
+/// z up). No translation.
+Eigen::Isometry3d camera_T_optical();
+
+}  // namespace trk_bridge::ros

@@ -1,0 +1,23 @@
+// Records and calibrations <-> messages. Headers are the caller's: nothing here touches them.
+#pragma once
+
+#include <sensor_msgs/CameraInfo.h>
+#include <trk_bridge/CameraConstants.h>
+#include <trk_bridge/CameraParams.h>
+
+#include "trk_bridge/camera/calibration.h"
+#include "trk_bridge/wire/record.h"
+
+namespace trk_bridge::ros {
+
+/// Field by field, in the units of the record's format. What the format does not select (matrix or Euler) is zero.
+void to_msg(const wire::CameraParams& params, trk_bridge::CameraParams& message);
+void to_msg(const wire::CameraConstants& constants, trk_bridge::CameraConstants& message);
+
+/// Size, model, D, K, R = identity, P = [K|0]; no binning, no region of interest. Allocates only when `message` is new.
+void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& message);
+
+wire::CameraParams from_msg(const trk_bridge::CameraParams& message);
+wire::CameraConstants from_msg(const trk_bridge::CameraConstants& message);
+
+}  // namespace trk_bridge::ros

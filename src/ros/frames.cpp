@@ -1,0 +1,38 @@
+#include "trk_bridge/ros/frames.h"
+
+namespace trk_bridge::ros {
+
+geometry_msgs::Transform to_transform(const Eigen::Isometry3d& parent_T_child) {
+  Eigen::Quaterniond q(parent_T_child.linear());
+  q.normalize();
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  geometry_msgs::Transform transform;
+  transform.translation.x = parent_T_child.translation().x();
+  transform.translation.y = parent_T_child.translation().y();
+  transform.translation.z = parent_T_child.translation().z();
+  transform.rotation.x = q.x();
+  transform.rotation.y = q.y();
+  transform.rotation.z = q.z();
+  transform.rotation.w = q.w();
+  return transform;
+}
+
+Eigen::Isometry3d to_isometry(const geometry_msgs::Transform& transform) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() =
+      Eigen::Quaterniond(transform.rotation.w, transform.rotation.x, transform.rotation.y, transform.rotation.z)
+          .normalized()
+          .toRotationMatrix();
+  pose.translation() << transform.translation.x, transform.translation.y, transform.translation.z;
+  return pose;
+}
+
+Eigen::Isometry3d camera_T_optical() {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear().col(0) = Eigen::Vector3d::UnitX();
+  pose.linear().col(1) = -Eigen::Vector3d::UnitZ();
+  pose.linear().col(2) = Eigen::Vector3d::UnitY();
+  return pose;
+}
+
+}  // namespace trk_bridge::ros
