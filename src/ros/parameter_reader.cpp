@@ -1,0 +1,139 @@
+#include "trk_bridge/ros/parameter_reader.h"
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+namespace trk_bridge::ros {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+std::string joined(const std::vector<std::string>& words, const char* between) {
+  std::string text;
+  for (const auto& word : words) {
+    if (!text.empty()) text += between;
+    text += word;
+  }
+  return text;
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string shown(const XmlRpcValue& value) {
+  std::ostringstream out;
+  if (value.getType() == XmlRpcValue::TypeString) {
+    out << '\'' << value << '\'';
+  } else {
+    out << value;
+  }
+  return out.str();
+}
+
+}  // namespace
+
+ParameterError::ParameterError(const std::vector<std::string>& faults) : std::runtime_error(joined(faults, "\n")) {}
+
+const std::string& nearest(std::string_view word, const std::vector<std::string>& candidates) {
+  return *std::min_element(candidates.begin(), candidates.end(), [word](const auto& a, const auto& b) {
+    return edit_distance(word, a) < edit_distance(word, b);
+  });
+}
+
+ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string path, std::vector<std::string>& faults)
+    : tree_(tree), path_(std::move(path)), faults_(faults) {
+  if (tree_.getType() == XmlRpcValue::TypeStruct) return;
+  // An empty map arrives as an invalid value.
+  if (tree_.valid()) faults_.push_back(path_ + " = " + shown(tree_) + ": must be a map of parameters");
+  tree_.clear();
+}
+
+XmlRpcValue* ParameterReader::find(const std::string& key) {
+  know(key);
+  return has(key) ? &tree_[key] : nullptr;
+}
+
+void ParameterReader::know(const std::string& key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+}
+
+bool ParameterReader::has(const std::string& key) const {
+  return tree_.getType() == XmlRpcValue::TypeStruct && tree_.hasMember(key);
+}
+
+void ParameterReader::wrong_type(const std::string& key, XmlRpcValue& value, const char* allowed) {
+  faults_.push_back(path_ + key + " = " + shown(value) + ": must be " + allowed);
+}
+
+std::optional<std::string> ParameterReader::text(const std::string& key) {
+  auto* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->getType() == XmlRpcValue::TypeString) return static_cast<std::string&>(*value);
+  wrong_type(key, *value, "text");
+  return std::nullopt;
+}
+
+std::optional<double> ParameterReader::number(const std::string& key) {
+  auto* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->getType() == XmlRpcValue::TypeDouble) return static_cast<double&>(*value);
+  if (value->getType() == XmlRpcValue::TypeInt) return static_cast<int&>(*value);
+  wrong_type(key, *value, "a number");
+  return std::nullopt;
+}
+
+std::optional<int> ParameterReader::integer(const std::string& key) {
+  auto* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->getType() == XmlRpcValue::TypeInt) return static_cast<int&>(*value);
+  wrong_type(key, *value, "an integer");
+  return std::nullopt;
+}
+
+std::optional<bool> ParameterReader::flag(const std::string& key) {
+  auto* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->getType() == XmlRpcValue::TypeBoolean) return static_cast<bool&>(*value);
+  wrong_type(key, *value, "true or false");
+  return std::nullopt;
+}
+
+std::optional<XmlRpcValue> ParameterReader::map(const std::string& key) {
+  auto* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->getType() == XmlRpcValue::TypeStruct) return *value;
+  wrong_type(key, *value, "a map");
+  return std::nullopt;
+}
+
+std::vector<std::string> ParameterReader::keys() const {
+  std::vector<std::string> names;
+  if (tree_.getType() != XmlRpcValue::TypeStruct) return names;
+  XmlRpcValue tree = tree_;  // iteration is not const
+  for (auto& [name, value] : tree) names.push_back(name);
+  return names;
+}
+
+void ParameterReader::refuse_unknown() {
+  for (const auto& key : keys()) {
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    std::sort(known_.begin(), known_.end());
+    faults_.push_back(path_ + key + " = " + shown(tree_[key]) + ": no such parameter, nearest is " +
+                      nearest(key, known_) + "; known are " + joined(known_, ", "));
+  }
+}
+
+}  // namespace trk_bridge::ros

@@ -1,0 +1,158 @@
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "trk_bridge/camera/camera.h"
+#include "trk_bridge/ros/trk_to_ros_parameters.h"
+#include "trk_bridge/transport/endpoint.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::ros {
+namespace {
+
+/// Collects faults under the keys a user wrote.
+class Faults {
+ public:
+  explicit Faults(std::string path) : path_(std::move(path)) {}
+
+  void add(const std::string& key, const std::string& value, const std::string& allowed) {
+    lines.push_back(path_ + key + " = " + value + ": " + allowed);
+  }
+
+  std::vector<std::string> lines;
+
+ private:
+  std::string path_;
+};
+
+std::string quoted(const std::string& text) { return '\'' + text + '\''; }
+
+bool is_base_name(const std::string& name) {
+  if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0) return false;
+  for (const char c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') return false;
+  }
+  return true;
+}
+
+bool is_frame(const std::string& frame) {
+  if (frame.empty() || frame[0] == '/') return false;
+  for (const char c : frame) {
+    if (std::isspace(static_cast<unsigned char>(c)) != 0) return false;
+  }
+  return true;
+}
+
+void check_frames(const CameraParameters& camera, Faults& faults) {
+  const std::pair<const char*, const std::string*> frames[] = {{"studio_frame", &camera.studio_frame},
+                                                               {"camera_frame", &camera.camera_frame},
+                                                               {"optical_frame", &camera.optical_frame}};
+  std::set<std::string> seen;
+  for (const auto& [key, frame] : frames) {
+    if (!is_frame(*frame)) {
+      faults.add(key, quoted(*frame), "must be a tf frame: not empty, no leading slash, no white space");
+    } else if (!seen.insert(*frame).second) {
+      faults.add(key, quoted(*frame), "must differ from the camera's other frames");
+    }
+  }
+}
+
+void check_format(const CameraParameters& camera, Faults& faults) {
+  if (camera.format == as_received) return;
+  const auto mask = wire::format_from_words(camera.format);
+  if (!mask) {
+    faults.add("format", quoted(camera.format), mask.error() + "; or " + as_received);
+  } else if (const auto writable = wire::check_writable(*mask); !writable) {
+    faults.add("format", quoted(camera.format), writable.error());
+  }
+}
+
+void check_camera(const CameraParameters& camera, Faults& faults) {
+  if (!is_base_name(camera.name)) {
+    faults.add("name", quoted(camera.name), "a camera's name must begin with a letter, then letters, digits and _");
+  }
+  if (camera.source.empty()) {
+    faults.add("source", "''", "must be given: an endpoint URL such as udp://:7000, shm:7 or file:take.trk");
+  } else if (const auto endpoint = transport::parse_endpoint(camera.source, transport::Direction::read); !endpoint) {
+    faults.add("source", quoted(camera.source), endpoint.error());
+  }
+  check_frames(camera, faults);
+  check_format(camera, faults);
+  if (!std::isfinite(camera.delay) || camera.delay < 0 || camera.delay > 60) {
+    faults.add("delay", std::to_string(camera.delay), "must be 0 to 60 seconds");
+  }
+  if (camera.constants) {
+    if (const auto sound = camera::check(*camera.constants); !sound) {
+      faults.add("constants", "{…}", camera::describe(sound.error()));
+    }
+  }
+}
+
+/// Whether both name one UDP port that only one of them could bind.
+bool same_port(const std::string& one, const std::string& other) {
+  const auto a = transport::parse_endpoint(one, transport::Direction::read);
+  const auto b = transport::parse_endpoint(other, transport::Direction::read);
+  if (!a || !b) return false;
+  const auto* u = std::get_if<transport::UdpEndpoint>(&*a);
+  const auto* v = std::get_if<transport::UdpEndpoint>(&*b);
+  return u != nullptr && v != nullptr && u->port == v->port && u->host == v->host;
+}
+
+void check_pair(const CameraParameters& camera, const CameraParameters& before, Faults& faults) {
+  if (camera.name == before.name) faults.add("name", quoted(camera.name), "two cameras cannot share a name");
+  for (const auto* frame : {&camera.camera_frame, &camera.optical_frame}) {
+    const char* key = frame == &camera.camera_frame ? "camera_frame" : "optical_frame";
+    if (*frame == before.camera_frame || *frame == before.optical_frame) {
+      faults.add(key, quoted(*frame), "is a frame of camera " + before.name + ", too: a frame has one parent");
+    }
+  }
+  if (camera.source.empty() || before.source.empty()) return;
+  if (camera.source != before.source) {
+    if (same_port(camera.source, before.source)) {
+      faults.add("source", quoted(camera.source),
+                 "camera " + before.name + " has the same port as " + quoted(before.source) +
+                     ": cameras on one port must give the very same URL");
+    }
+    return;
+  }
+  for (const auto* one : {&camera, &before}) {
+    if (!one->id) {
+      faults.add("id", "(none)",
+                 "cameras " + before.name + " and " + camera.name + " share " + quoted(camera.source) +
+                     ": each must say its id (camera " + one->name + " does not)");
+      return;
+    }
+  }
+  if (camera.id == before.id) {
+    faults.add("id", std::to_string(*camera.id), "is camera " + before.name + "'s, too: ids on one source must differ");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> validate(const TrkToRosParameters& parameters) {
+  Faults node("~");
+  if (parameters.cameras.empty()) node.add("cameras", "{}", "must have at least one camera");
+  if (!std::isfinite(parameters.field_rate) || parameters.field_rate < 1 || parameters.field_rate > 1000) {
+    node.add("field_rate", std::to_string(parameters.field_rate), "must be 1 to 1000 Hz");
+  }
+  if (parameters.stamp == "counter") {
+    node.add("stamp", "'counter'", "not available in this version; allowed is arrival");
+  } else if (parameters.stamp != "arrival") {
+    node.add("stamp", quoted(parameters.stamp), "must be arrival");
+  }
+  if (parameters.queue_size < 1 || parameters.queue_size > 100000) {
+    node.add("queue_size", std::to_string(parameters.queue_size), "must be 1 to 100000");
+  }
+  std::vector<std::string> lines = std::move(node.lines);
+  for (auto camera = parameters.cameras.begin(); camera != parameters.cameras.end(); ++camera) {
+    Faults faults(parameters.several ? "~cameras/" + camera->name + "/" : "~");
+    check_camera(*camera, faults);
+    for (auto before = parameters.cameras.begin(); before != camera; ++before) check_pair(*camera, *before, faults);
+    lines.insert(lines.end(), faults.lines.begin(), faults.lines.end());
+  }
+  return lines;
+}
+
+}  // namespace trk_bridge::ros
