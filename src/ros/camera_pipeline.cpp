@@ -1,0 +1,153 @@
+#include "trk_bridge/ros/camera_pipeline.h"
+
+#include <cmath>
+
+#include "trk_bridge/ros/frames.h"
+#include "trk_bridge/ros/messages.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::ros {
+namespace {
+
+using camera::CameraReason;
+
+std::chrono::nanoseconds nanoseconds_of(double seconds) {
+  return std::chrono::nanoseconds(std::llround(seconds * 1e9));
+}
+
+std::optional<std::uint32_t> format_of(const CameraParameters& parameters) {
+  if (parameters.format == as_received) return std::nullopt;
+  return wire::format_from_words(parameters.format).value();
+}
+
+}  // namespace
+
+CameraPipeline::CameraPipeline(const CameraParameters& parameters, double field_rate)
+    : parameters_(parameters),
+      format_(format_of(parameters)),
+      sequence_(field_rate),
+      stamper_(nanoseconds_of(parameters.delay)) {
+  params_.header.frame_id = parameters.studio_frame;
+  constants_message_.header.frame_id = parameters.camera_frame;
+  camera_info_.header.frame_id = parameters.optical_frame;
+  transform_.header.frame_id = parameters.studio_frame;
+  transform_.child_frame_id = parameters.camera_frame;
+  if (parameters.constants) use(*parameters.constants, ConstantsOrigin::parameter);
+}
+
+bool CameraPipeline::wants(const wire::Record& record) const noexcept {
+  if (!parameters_.id) return true;
+  if (const auto* params = std::get_if<wire::CameraParams>(&record)) return params->id == *parameters_.id;
+  const auto* constants = std::get_if<wire::CameraConstants>(&record);
+  return constants != nullptr && (constants->id == *parameters_.id || constants->id == 0);
+}
+
+PipelineOutput CameraPipeline::process(const transport::Sample& sample, std::int64_t now) {
+  if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) return take(*params, sample, now);
+  if (const auto* constants = std::get_if<wire::CameraConstants>(&sample.record)) return take(*constants, sample);
+  return {};
+}
+
+void CameraPipeline::use(const wire::CameraConstants& constants, ConstantsOrigin origin) {
+  incoming_ = constants;
+  outgoing_ = format_ ? camera::constants_for(constants, *format_) : constants;
+  statistics_.constants = origin;
+  to_msg(outgoing_, constants_message_);
+}
+
+PipelineOutput CameraPipeline::take(const wire::CameraConstants& constants, const transport::Sample& sample) {
+  const bool own = !parameters_.id || constants.id == *parameters_.id;
+  const auto origin = own ? ConstantsOrigin::own : ConstantsOrigin::any_camera;
+  if (origin < statistics_.constants) return {};
+  if (!camera::check(constants)) {
+    ++statistics_.bad_constants;
+    return {};
+  }
+  const bool same = incoming_ && *incoming_ == constants;
+  use(constants, origin);
+  if (same) return {};
+  // Out of ROS time is no reason to keep constants back: zero means that no time is known.
+  constants_message_.header.stamp =
+      to_time(sample.arrival - nanoseconds_of(parameters_.delay).count()).value_or(::ros::Time());
+  PipelineOutput output;
+  output.constants = true;
+  return output;
+}
+
+PipelineOutput CameraPipeline::drop(CameraReason reason) {
+  ++statistics_.dropped;
+  statistics_.drop_reason = reason;
+  return {};
+}
+
+PipelineOutput CameraPipeline::take(const wire::CameraParams& params, const transport::Sample& sample,
+                                    std::int64_t now) {
+  if (statistics_.params > 0 && params.id != statistics_.last_id) ++statistics_.id_changes;
+  ++statistics_.params;
+  statistics_.last_id = params.id;
+  statistics_.last_format = params.format;
+  const auto order = sequence_.judge(params.counter);
+  statistics_.sequence = sequence_.counts();
+  if (!transport::is_news(order)) return {};
+  statistics_.last_news = now;
+  statistics_.sender = sample.sender;
+
+  const auto pose = camera::decode_pose(params);
+  if (!pose) return drop(pose.error());
+  const auto lens = camera::decode_lens(params, incoming_ ? &*incoming_ : nullptr);
+  if (!lens && lens.error() == CameraReason::not_finite) return drop(lens.error());
+  const auto stamp = stamper_.stamp(sample.arrival);
+  if (!stamp) {
+    ++statistics_.dropped;
+    ++statistics_.unstampable;
+    return {};
+  }
+  statistics_.held_stamps = stamper_.held();
+  statistics_.stamp_ahead = stamper_.ahead();
+
+  PipelineOutput output;
+  params_.header.stamp = camera_info_.header.stamp = transform_.header.stamp = *stamp;
+  output.params = make_params(params);
+  output.camera_info = parameters_.publish_camera_info && make_camera_info(lens);
+  if (parameters_.publish_tf) {
+    transform_.transform = to_transform(*pose);
+    output.transform = true;
+  }
+  return output;
+}
+
+bool CameraPipeline::make_params(const wire::CameraParams& params) {
+  if (!format_) {
+    to_msg(params, params_);
+    return true;
+  }
+  const auto* incoming = incoming_ ? &*incoming_ : nullptr;
+  const auto* outgoing = incoming_ ? &outgoing_ : nullptr;
+  const auto told = camera::reexpress(params, *format_, incoming, outgoing);
+  if (!told) {
+    ++statistics_.withheld;
+    statistics_.withhold_reason = told.error();
+    return false;
+  }
+  to_msg(*told, params_);
+  return true;
+}
+
+bool CameraPipeline::make_camera_info(const camera::Result<camera::Lens>& lens) {
+  const auto refuse = [this](CameraReason reason) {
+    ++statistics_.without_camera_info;
+    statistics_.info_reason = reason;
+    statistics_.has_camera_info = false;
+    return false;
+  };
+  if (!incoming_) return refuse(CameraReason::constants_needed);
+  if (!lens) return refuse(lens.error());
+  const auto calibration = calibrator_.calibrate(*lens, *incoming_);
+  if (!calibration) return refuse(calibration.error());
+  to_msg(*calibration, camera_info_);
+  statistics_.has_camera_info = true;
+  statistics_.fit_residual = calibration->distortion.residual;
+  return true;
+}
+
+}  // namespace trk_bridge::ros

@@ -1,0 +1,223 @@
+#include "trk_bridge/ros/diagnostics.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::ros {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using transport::SourceState;
+
+constexpr double nanoseconds_per_second = 1e9;
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f s", seconds);
+  return text;
+}
+
+std::string rate_text(double rate) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", rate);
+  return text;
+}
+
+double seconds_between(std::int64_t from, std::int64_t to) {
+  return static_cast<double>(to - from) / nanoseconds_per_second;
+}
+
+double rate_of(const CameraReport& now, const CameraReport& before) {
+  const double seconds = seconds_between(before.time, now.time);
+  if (seconds <= 0) return 0;
+  return static_cast<double>(now.camera.sequence.accepted - before.camera.sequence.accepted) / seconds;
+}
+
+std::string ids_text(const ReaderStatistics& reader) {
+  std::string text;
+  for (std::uint32_t i = 0; i < reader.unknown_id_count; ++i) {
+    text += (i == 0 ? "" : ", ") + std::to_string(reader.unknown_ids[i]);
+  }
+  return text;
+}
+
+std::string fault_text(const ReaderStatistics& reader) {
+  return reader.has_fault ? wire::describe(reader.last_fault) : std::string("none");
+}
+
+const char* constants_text(ConstantsOrigin origin) {
+  switch (origin) {
+    case ConstantsOrigin::none:
+      return "no";
+    case ConstantsOrigin::parameter:
+      return "from the parameter";
+    case ConstantsOrigin::any_camera:
+      return "received with id 0";
+    case ConstantsOrigin::own:
+      return "received";
+  }
+  return "no";
+}
+
+/// Before the first parameters of this camera.
+Finding silence(const CameraReport& now, const CameraParameters& parameters) {
+  switch (now.source.state) {
+    case SourceState::waiting:
+      return {Condition::waiting, DiagnosticStatus::STALE, now.source.waiting_for};
+    case SourceState::nothing_valid:
+      return {Condition::nothing_valid, DiagnosticStatus::WARN,
+              "datagrams come but none is trk: " + fault_text(now.reader)};
+    case SourceState::only_refused:
+      return {Condition::only_refused, DiagnosticStatus::WARN,
+              "datagrams come, but only from senders that are not allowed, last " +
+                  transport::to_string(now.source.last_refused)};
+    default:
+      break;
+  }
+  if (parameters.id && now.reader.unknown_id_records > 0) {
+    return {Condition::other_ids_only, DiagnosticStatus::WARN,
+            "parameters come, but none with id " + std::to_string(*parameters.id) + "; seen: " + ids_text(now.reader)};
+  }
+  return {Condition::constants_only, DiagnosticStatus::WARN, "records come, but no parameters of this camera yet"};
+}
+
+Finding state(const CameraReport& now, const CameraReport& before, const CameraParameters& parameters,
+              double field_rate) {
+  if (now.source.state == SourceState::failed) {
+    return {Condition::failed, DiagnosticStatus::ERROR, "the source failed: " + now.source.error};
+  }
+  if (now.source.state == SourceState::ended) return {Condition::ended, DiagnosticStatus::OK, "ended"};
+  if (now.camera.sequence.accepted == 0) return silence(now, parameters);
+  const double age = seconds_between(now.camera.last_news, now.time);
+  if (age > std::max(1.0, 5.0 / field_rate)) {
+    if (now.camera.sequence.duplicates > before.camera.sequence.duplicates) {
+      return {Condition::counter_stands, DiagnosticStatus::WARN,
+              "nothing new for " + seconds_text(age) + ": records come, but their counter stands still"};
+    }
+    const std::string why = now.source.waiting_for.empty() ? "" : "; waiting for " + now.source.waiting_for;
+    return {Condition::nothing_new, DiagnosticStatus::WARN, "nothing new for " + seconds_text(age) + why};
+  }
+  return {
+      Condition::receiving, DiagnosticStatus::OK,
+      "receiving from " + transport::to_string(now.camera.sender) + " at " + rate_text(rate_of(now, before)) + " Hz"};
+}
+
+void add_source_findings(std::vector<Finding>& found, const CameraReport& now, const CameraReport& before) {
+  const auto warn = [&found](Condition condition, std::string text) {
+    found.push_back({condition, DiagnosticStatus::WARN, std::move(text)});
+  };
+  const bool nothing_valid = now.source.state == SourceState::nothing_valid;
+  if (now.source.malformed > before.source.malformed && !nothing_valid) {
+    warn(Condition::malformed, "malformed records: " + fault_text(now.reader));
+  }
+  if (now.source.refused > before.source.refused && now.source.state != SourceState::only_refused) {
+    warn(Condition::refused,
+         "datagrams from senders that are not allowed, last " + transport::to_string(now.source.last_refused));
+  }
+  if (now.source.kernel_drops > before.source.kernel_drops) {
+    warn(Condition::kernel_drops, "the kernel dropped datagrams: the receive buffer was full");
+  }
+  if (now.reader.unknown_id_records > before.reader.unknown_id_records) {
+    warn(Condition::unknown_ids, "records with ids that no camera has: " + ids_text(now.reader));
+  }
+}
+
+void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, const CameraReport& before,
+                         const CameraParameters& parameters) {
+  const auto warn = [&found](Condition condition, std::string text) {
+    found.push_back({condition, DiagnosticStatus::WARN, std::move(text)});
+  };
+  const auto& camera = now.camera;
+  const auto& old = before.camera;
+  if (camera.sequence.lost > old.sequence.lost) {
+    warn(Condition::lost, "lost " + std::to_string(camera.sequence.lost - old.sequence.lost));
+  }
+  if (camera.id_changes > old.id_changes) {
+    warn(Condition::several_ids, "the id changes: give the camera the id it is to follow");
+  }
+  if (camera.unstampable > old.unstampable) {
+    warn(Condition::unstampable, "records dropped: their time is outside of 1970 to 2106");
+  }
+  if (camera.dropped - camera.unstampable > old.dropped - old.unstampable) {
+    warn(Condition::dropped, "records dropped: " + camera::describe(camera.drop_reason));
+  }
+  if (camera.bad_constants > old.bad_constants) {
+    warn(Condition::bad_constants, "constants ignored: " + camera::describe(camera::CameraReason::bad_constants));
+  }
+  const bool no_constants = camera.constants == ConstantsOrigin::none;
+  if (camera.withheld > old.withheld && camera.withhold_reason == camera::CameraReason::constants_needed) {
+    warn(Condition::withheld,
+         "no constants yet: format '" + wire::format_to_words(camera.last_format) + "' needs them");
+  } else if (camera.withheld > old.withheld) {
+    warn(Condition::withheld, "params withheld: " + camera::describe(camera.withhold_reason));
+  } else if (no_constants && parameters.publish_camera_info && camera.sequence.accepted > 0) {
+    warn(Condition::no_constants, "no constants yet: no camera_info");
+  }
+  if (!no_constants && camera.without_camera_info > old.without_camera_info) {
+    warn(Condition::no_camera_info, "no camera_info: " + camera::describe(camera.info_reason));
+  }
+  if (camera.held_stamps > old.held_stamps) {
+    warn(Condition::stamps_held, "the clock stands or stepped back: stamps are " +
+                                     seconds_text(static_cast<double>(camera.stamp_ahead) / nanoseconds_per_second) +
+                                     " ahead");
+  }
+}
+
+}  // namespace
+
+std::vector<Finding> findings(const CameraReport& now, const CameraReport& before, const CameraParameters& parameters,
+                              double field_rate) {
+  std::vector<Finding> found{state(now, before, parameters, field_rate)};
+  add_source_findings(found, now, before);
+  add_camera_findings(found, now, before, parameters);
+  return found;
+}
+
+void fill(diagnostic_updater::DiagnosticStatusWrapper& status, const std::vector<Finding>& found,
+          const CameraReport& now, const CameraReport& before) {
+  status.hardware_id = now.source_name;
+  std::uint8_t level = DiagnosticStatus::OK;
+  std::string text;
+  for (const auto& finding : found) {
+    level = std::max(level, finding.level);
+    text += (text.empty() ? "" : "; ") + finding.text;
+  }
+  status.summary(level, text);
+
+  const auto& camera = now.camera;
+  const bool any = camera.sequence.accepted > 0;
+  status.add("source", now.source_name);
+  status.add("rate (Hz)", rate_text(rate_of(now, before)));
+  status.add("received", camera.sequence.accepted);
+  status.add("lost", camera.sequence.lost);
+  status.add("out of order", camera.sequence.late);
+  status.add("duplicate", camera.sequence.duplicates);
+  status.add("restarts", camera.sequence.restarts);
+  status.add("malformed", now.source.malformed);
+  status.add("last malformed", fault_text(now.reader));
+  status.add("refused senders", now.source.refused);
+  status.add("kernel drops", now.source.kernel_drops);
+  status.add("overwritten", now.source.overwritten);
+  status.add("reattached", now.source.reattached);
+  status.add("unknown ids", now.reader.unknown_id_records);
+  status.add("unknown format bits", now.source.unknown_format_bits);
+  status.add("age of last sample (s)",
+             any ? rate_text(seconds_between(camera.last_news, now.time)) : std::string("never"));
+  status.add("sender", transport::to_string(camera.sender));
+  status.add("format", any ? wire::format_to_words(camera.last_format) : std::string("none yet"));
+  status.add("constants known", constants_text(camera.constants));
+  status.add("constants ignored", camera.bad_constants);
+  status.add("withheld", camera.withheld);
+  status.add("dropped", camera.dropped);
+  status.add("camera_info", camera.has_camera_info           ? std::string("yes")
+                            : camera.without_camera_info > 0 ? "no: " + camera::describe(camera.info_reason)
+                                                             : std::string("no"));
+  status.add("lens fit residual (px)",
+             camera.has_camera_info ? std::to_string(camera.fit_residual) : std::string("none"));
+  status.add("stamps held", camera.held_stamps);
+  status.add("last error", now.source.error.empty() ? std::string("none") : now.source.error);
+}
+
+}  // namespace trk_bridge::ros
