@@ -1,0 +1,47 @@
+// A thread that reads one source and hands every record to the cameras that want it.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "camera_output.h"
+#include "transport/snapshot.h"
+#include "trk_bridge/ros/diagnostics.h"
+#include "trk_bridge/transport/source.h"
+
+namespace trk_bridge::nodes {
+
+/// Reads from start() until it is destroyed, the source ends or fails. A source that failed stays so: its diagnostics
+/// say why, and the node lives on for its other sources.
+class SourceReader {
+ public:
+  /// The cameras must outlive this and be fed by nobody else.
+  SourceReader(std::unique_ptr<transport::Source> source, std::vector<CameraOutput*> cameras);
+  ~SourceReader();
+  SourceReader(const SourceReader&) = delete;
+  SourceReader& operator=(const SourceReader&) = delete;
+
+  void start();
+
+  /// How it stands at this moment, but for the cameras' part. Any thread.
+  trk_bridge::ros::CameraReport report() const;
+
+ private:
+  void run();
+  void read();
+  void dispatch(const transport::Sample&);
+  void note_unknown(std::uint32_t id);
+
+  std::unique_ptr<transport::Source> source_;
+  std::vector<CameraOutput*> cameras_;
+  trk_bridge::ros::ReaderStatistics statistics_;
+  transport::Snapshot<trk_bridge::ros::ReaderStatistics> published_;
+  mutable std::mutex failure_mutex_;
+  std::string failure_;  // of the thread itself
+  std::thread thread_;
+};
+
+}  // namespace trk_bridge::nodes

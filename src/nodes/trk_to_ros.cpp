@@ -1,0 +1,69 @@
+#include "trk_to_ros.h"
+
+#include <map>
+
+#include "trk_bridge/ros/frames.h"
+#include "trk_bridge/ros/trk_to_ros_parameters.h"
+
+namespace trk_bridge::nodes {
+namespace {
+
+/// The last element of a namespace names the camera in it.
+std::string camera_name_of(const std::string& name_space) {
+  const std::string last = name_space.substr(name_space.find_last_of('/') + 1);
+  return last.empty() ? "camera" : last;
+}
+
+trk_bridge::ros::TrkToRosParameters read_parameters(const ::ros::NodeHandle& node,
+                                                    const ::ros::NodeHandle& private_node) {
+  XmlRpc::XmlRpcValue tree;
+  private_node.getParam(private_node.getNamespace(), tree);  // absent: an empty tree
+  return trk_bridge::ros::read_trk_to_ros_parameters(tree, camera_name_of(node.getNamespace()));
+}
+
+}  // namespace
+
+TrkToRos::TrkToRos(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name)
+    : node_(std::move(node)), diagnostics_(node_, private_node, name) {
+  const auto parameters = read_parameters(node_, private_node);
+  diagnostics_.setHardwareID("trk");
+  open(parameters);
+  send_static_transforms();
+  diagnostics_timer_ = node_.createWallTimer(::ros::WallDuration(diagnostics_.getPeriod()),
+                                             [this](const ::ros::WallTimerEvent&) { diagnostics_.force_update(); });
+  for (auto& reader : readers_) reader->start();
+}
+
+void TrkToRos::open(const trk_bridge::ros::TrkToRosParameters& parameters) {
+  std::map<std::string, std::vector<CameraOutput*>> by_source;
+  for (const auto& camera : parameters.cameras) {
+    const auto topics = parameters.several ? ::ros::NodeHandle(node_, camera.name) : node_;
+    cameras_.push_back(std::make_unique<CameraOutput>(topics, camera, parameters.field_rate, parameters.queue_size));
+    by_source[camera.source].push_back(cameras_.back().get());
+  }
+  for (const auto& [url, cameras] : by_source) {
+    readers_.push_back(std::make_unique<SourceReader>(transport::open_source(url, parameters.field_rate), cameras));
+    for (auto* camera : cameras) {
+      diagnostics_.add(camera->parameters().name,
+                       [camera, reader = readers_.back().get()](diagnostic_updater::DiagnosticStatusWrapper& status) {
+                         camera->describe(reader->report(), status);
+                       });
+    }
+  }
+}
+
+void TrkToRos::send_static_transforms() {
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (const auto& camera : cameras_) {
+    if (!camera->parameters().publish_tf) continue;
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp = ::ros::Time::now();
+    transform.header.frame_id = camera->parameters().camera_frame;
+    transform.child_frame_id = camera->parameters().optical_frame;
+    transform.transform = trk_bridge::ros::to_transform(trk_bridge::ros::camera_T_optical());
+    transforms.push_back(transform);
+  }
+  if (!transforms.empty()) static_transforms_.sendTransform(transforms);
+}
+
+}  // namespace trk_bridge::nodes

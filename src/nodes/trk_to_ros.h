@@ -1,0 +1,38 @@
+// trk endpoints to ROS topics and tf: what the node and the nodelet share.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <ros/wall_timer.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include "camera_output.h"
+#include "source_reader.h"
+
+namespace trk_bridge::nodes {
+
+/// Runs from construction to destruction. Diagnostics go out from the callback queue of `node`, all else from the
+/// readers' threads.
+class TrkToRos {
+ public:
+  /// Topics are in the namespace of `node`, parameters in that of `private_node`; `name` is the node's or nodelet's
+  /// full name. Throws ParameterError and TransportError.
+  TrkToRos(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name);
+
+ private:
+  void open(const trk_bridge::ros::TrkToRosParameters&);
+  void send_static_transforms();
+
+  ::ros::NodeHandle node_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  std::vector<std::unique_ptr<CameraOutput>> cameras_;
+  std::vector<std::unique_ptr<SourceReader>> readers_;
+  diagnostic_updater::Updater diagnostics_;
+  ::ros::WallTimer diagnostics_timer_;
+};
+
+}  // namespace trk_bridge::nodes

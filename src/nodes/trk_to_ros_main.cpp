@@ -1,0 +1,6 @@
+#include "node_main.h"
+#include "trk_to_ros.h"
+
+int main(int argc, char** argv) {
+  return trk_bridge::nodes::node_main<trk_bridge::nodes::TrkToRos>(argc, argv, "trk_to_ros");
+}
