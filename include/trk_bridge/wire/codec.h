@@ -34,14 +34,16 @@ struct WireForm {
 struct Decoded {
   Record record;
   WireForm form;
+  /// The generation of a binary record is a guess: both would do, and nothing is known of the sender (`LayoutSense`).
+  bool layout_guessed = false;
 };
 
 /// One whole datagram. `sense` is what is known of its sender; it learns from good binary records.
 [[nodiscard]] tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutSense& sense) noexcept;
 
 /// One whole datagram into `buffer`; the view covers its bytes. ASCII ends in its NUL. A number that is not finite is
-/// refused (not_finite), as is a counter or id that the layout cannot hold (out_of_range; an id other than 0 in the document's
-/// generation is dropped, for it has no place there).
+/// refused (not_finite), as is a counter or id that the layout cannot hold (out_of_range; an id other than 0 in the
+/// document's generation is dropped, for it has no place there).
 [[nodiscard]] tl::expected<std::string_view, Fault> encode(const CameraParams&, WireForm, Buffer& buffer) noexcept;
 [[nodiscard]] tl::expected<std::string_view, Fault> encode(const CameraConstants&, WireForm, Buffer& buffer) noexcept;
 

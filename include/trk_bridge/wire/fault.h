@@ -7,22 +7,24 @@
 namespace trk_bridge::wire {
 
 enum class Reason : std::uint8_t {
-  too_long,            ///< more than max_datagram bytes
-  truncated,           ///< shorter than its header, or ended before its last field
-  bad_magic,           ///< does not begin with DMC01 and a NUL
-  bad_type,            ///< neither P nor C
-  bad_encoding,        ///< neither A nor B
-  not_a_number,        ///< field N is not a number
-  out_of_range,        ///< field N does not fit its type
-  not_finite,          ///< field N is NaN or infinite
-  trailing_text,       ///< more than white space after the last field
-  wrong_size,          ///< no known layout has a binary record of this size
-  layout_mismatch,     ///< the size contradicts the layout that was said outright
-  no_sound_layout,     ///< right size, but no layout gives a sound record
+  too_long,         ///< more than max_datagram bytes
+  truncated,        ///< shorter than its header, or ended before its last field
+  bad_magic,        ///< does not begin with DMC01 and a NUL
+  bad_type,         ///< neither P nor C
+  bad_encoding,     ///< neither A nor B
+  not_a_number,     ///< field N is not a number
+  out_of_range,     ///< field N does not fit its type
+  not_finite,       ///< field N is NaN or infinite
+  trailing_text,    ///< more than white space after the last field
+  wrong_size,       ///< no known layout has a binary record of this size
+  layout_mismatch,  ///< the size contradicts the layout that was said outright
+  no_sound_layout,  ///< right size, but no layout gives a sound record
 };
 
 /// A reason and, where it is about one field, which: `field` is its 1-based place in the ASCII order with the format
-/// word (or imageWidth) as field 1; the id is field 0 with `id_field` set. Cheap to copy; never allocates.
+/// word (or imageWidth) as field 1, and the id as field 0, in binary records alike; the bottom row of a binary
+/// matrix, which text does not carry, takes the places of the row above it. `field` counts only with `about_field`.
+/// Cheap to copy; never allocates.
 struct Fault {
   Reason reason;
   std::uint8_t field = 0;

@@ -53,15 +53,38 @@ Layout resolve(const LayoutChoice&, Layout fallback) noexcept;
 
 /// What is known of one sender's layout. One a sender: keep it between its datagrams. Not synchronised.
 ///
-/// In order of weight: what was said outright; what the constants' size told (56: document; 64 or 60: identified; 4-byte
-/// alignment at 60, and at 192/196-byte parameters); which reading is sound. A reading is sound when the format mask is
-/// within known_format_bits, all numbers are finite, and, for a matrix, the bottom row is 0 0 0 1 and the rotation
-/// orthonormal to 1e-3. When both generations are sound, the one seen last from the sender wins, else `identified` with
-/// an id that looks like one (below 65536), which is what everything in use today speaks.
+/// What was said outright is not judged: only layouts in line with it are read, and with the generation said a record
+/// is taken as it is; a size that none of them has is a layout_mismatch. The rest is found out from every record of the
+/// sender.
 ///
-/// An 8-byte counter whose upper half is not zero is a 4-byte counter before padding, unless the layout was said
-/// outright or the upper half was seen to go up by one as the lower one wrapped: a counter of one a field takes
-/// more than 200 days at 240 Hz to get there, while padding may be anything.
+/// Constants tell the generation by their size: 56 bytes document, 64 or 60 identified. So do parameters of 192 bytes
+/// (document) and 196 (identified). Parameters of 200 bytes are read in both generations and byte orders. A reading
+/// *fits* when
+/// - with a matrix, the bottom row is 0 0 0 1;
+/// - with Euler angles, these and the lens values are 0 or of a magnitude between 1e-50 and 1e12 (focus and aperture
+///   aside), and no rigid matrix (`is_rigid`) stands in their place.
+/// Without one that fits: no_sound_layout. Of several that fit the choice is, in order of weight,
+/// 1. the generation that the last constants told, or, before constants, the one of the last record that only one
+///    generation could read; ids and format masks have to be below 65536 for that;
+/// 2. a format mask within known_format_bits and an id below 65536, one of the two being wrong, both being wrong;
+/// 3. identified when the second word is not 0 (padding seldom looks like a mask) or the first below 16; else, a first
+///    word of 16 or more before a 0, document: that is a format before its padding rather than a camera of so high a
+///    number in the default format;
+/// 4. the byte order seen last from the sender, else little-endian.
+/// Choice 3 is a guess where both generations read well (`Decoded::layout_guessed`): a sender whose layout matters has
+/// to send constants, or its user to say the layout. A first and second word of 0 mean the same in both generations
+/// and are read as identified.
+/// When the reading chosen has a number that is not finite, that is the fault; the next best is not tried.
+///
+/// Constants are read in the byte order in which all six picture sizes are below 65536, the four chip sizes are as the
+/// numbers above, and of width and height both are 0 or neither (picture and chip alike); with none: no_sound_layout.
+///
+/// The counter of a 200-byte record: 8 bytes whose upper half is not zero (read in the sender's byte order; that half
+/// is the first one of a big-endian record) are taken for a 4-byte counter before padding, and the sender for `llp64`.
+/// A true 8-byte counter of one a field takes more than 200 days at 240 Hz to get there, while padding may be anything.
+/// When the upper half is seen to go up by one as the lower one wraps, the sender is `lp64` for good. With the upper
+/// half zero and nothing seen before, both mean the same and `lp64` is named; a big-endian 4-byte counter of 0
+/// before garbage can be told only after a record whose counter is not 0. An abi said outright rules all this out.
 class LayoutSense {
  public:
   LayoutSense() = default;
@@ -76,8 +99,9 @@ class LayoutSense {
   LayoutChoice said_;
   std::optional<Layout> seen_;
   std::optional<Generation> told_by_constants_;
-  std::optional<std::uint64_t> last_raw_counter_;
-  bool wide_counter_ = false;
+  std::optional<Generation> evident_;
+  std::optional<std::uint64_t> last_wide_counter_;
+  std::optional<Abi> counter_abi_;
 };
 
 }  // namespace trk_bridge::wire

@@ -15,16 +15,16 @@ struct Euler {
 /// trkCameraParams, with the id of the identified generation. Units are those of `format`
 /// (document, section "Camera Parameters").
 struct CameraParams {
-  std::uint32_t id = 0;  ///< camera number; 0: not given
+  std::uint32_t id = 0;      ///< camera number; 0: not given
   std::uint32_t format = 0;  ///< FormatBit mask; unknown bits are kept
   /// 4x4 column after column: `matrix[4*j + i]` is row i, column j, the document's `t.m[j][i]`. Counts without
   /// `euler`, is zero with it.
   std::array<double, 16> matrix{};
-  Euler euler;  ///< counts with `euler`, is zero without it
-  double fov = 0;  ///< image distance in mm, or an angle in degrees
+  Euler euler;                        ///< counts with `euler`, is zero without it
+  double fov = 0;                     ///< image distance in mm, or an angle in degrees
   double center_x = 0, center_y = 0;  ///< mm on the chip, or pixels
-  double k1 = 0, k2 = 0;  ///< mm^-2, mm^-4
-  double focdist = 0;  ///< m
+  double k1 = 0, k2 = 0;              ///< mm^-2, mm^-4
+  double focdist = 0;                 ///< m
   double aperture = 0;
   std::uint64_t counter = 0;  ///< one more with every set
 };

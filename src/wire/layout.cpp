@@ -1,0 +1,82 @@
+#include "trk_bridge/wire/layout.h"
+
+#include <array>
+
+#include "shape.h"
+
+namespace trk_bridge::wire {
+
+namespace {
+
+template <class T>
+struct Named {
+  std::string_view name;
+  T value;
+};
+
+constexpr std::array<Named<Generation>, 2> generations{
+    {{"document", Generation::document}, {"identified", Generation::identified}}};
+constexpr std::array<Named<Abi>, 3> abis{{{"lp64", Abi::lp64}, {"llp64", Abi::llp64}, {"i386", Abi::i386}}};
+constexpr std::array<Named<ByteOrder>, 2> byte_orders{{{"le", ByteOrder::little}, {"be", ByteOrder::big}}};
+
+template <class T, std::size_t n>
+std::optional<T> find(const std::array<Named<T>, n>& all, std::string_view name) {
+  for (const Named<T>& one : all) {
+    if (one.name == name) return one.value;
+  }
+  return std::nullopt;
+}
+
+template <class T, std::size_t n>
+std::string_view name_of(const std::array<Named<T>, n>& all, T value) {
+  for (const Named<T>& one : all) {
+    if (one.value == value) return one.name;
+  }
+  return "?";
+}
+
+/// What stands before the next '_', which is taken off the front of `text` with it.
+std::string_view take_part(std::string_view& text) {
+  const std::size_t end = text.find('_');
+  const std::string_view part = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return part;
+}
+
+}  // namespace
+
+std::size_t params_size(Layout layout) noexcept { return params_shape(layout.generation, layout.abi).size; }
+
+std::size_t constants_size(Layout layout) noexcept { return constants_shape(layout.generation, layout.abi).size; }
+
+std::string describe(Layout layout) {
+  return std::string(name_of(generations, layout.generation)) + ' ' + std::string(name_of(abis, layout.abi)) +
+         (layout.byte_order == ByteOrder::little ? " little-endian" : " big-endian");
+}
+
+tl::expected<LayoutChoice, std::string> layout_choice_from_word(std::string_view word) {
+  LayoutChoice choice;
+  if (word == "auto") return choice;
+  std::string_view rest = word;
+  choice.generation = find(generations, take_part(rest));
+  bool known = choice.generation.has_value();
+  if (known && !rest.empty()) {
+    choice.abi = find(abis, take_part(rest));
+    known = choice.abi.has_value();
+  }
+  if (known && !rest.empty()) {
+    choice.byte_order = find(byte_orders, rest);
+    known = choice.byte_order.has_value();
+  }
+  if (known && word.back() != '_') return choice;
+  return tl::unexpected("'" + std::string(word) +
+                        "' is no layout; allowed are auto, document and identified, the latter two optionally followed "
+                        "by _lp64, _llp64 or _i386 and that by _le or _be");
+}
+
+Layout resolve(const LayoutChoice& choice, Layout fallback) noexcept {
+  return {choice.generation.value_or(fallback.generation), choice.abi.value_or(fallback.abi),
+          choice.byte_order.value_or(fallback.byte_order)};
+}
+
+}  // namespace trk_bridge::wire

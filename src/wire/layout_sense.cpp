@@ -1,0 +1,223 @@
+#include "layout_sense.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "bytes.h"
+#include "fields.h"
+#include "rigid.h"
+#include "shape.h"
+
+namespace trk_bridge::wire {
+
+namespace {
+
+constexpr std::array generations{Generation::document, Generation::identified};
+constexpr std::array abis{Abi::lp64, Abi::llp64, Abi::i386};
+constexpr std::array byte_orders{ByteOrder::little, ByteOrder::big};
+
+/// Ids, masks with bits yet to come and picture sizes are below this.
+constexpr std::uint32_t small_number = 0x10000;
+/// A first word below this, before a zero, is rather the number of a camera than a format.
+constexpr std::uint32_t camera_numbers = 16;
+
+/// The layouts that have one size and are not ruled out by what was said. Of those that differ only in the counter
+/// `layouts` has the first.
+struct Candidates {
+  std::array<Layout, generations.size() * byte_orders.size()> layouts{};
+  std::size_t count = 0;
+  bool size_known = false;
+
+  const Layout* begin() const noexcept { return layouts.data(); }
+  const Layout* end() const noexcept { return layouts.data() + count; }
+  Fault fault_if_none() const noexcept { return {size_known ? Reason::layout_mismatch : Reason::wrong_size}; }
+};
+
+template <class Size>
+Candidates candidates_for(std::size_t size, const LayoutChoice& said, Size size_of) noexcept {
+  Candidates found;
+  for (const Generation generation : generations) {
+    for (const ByteOrder byte_order : byte_orders) {
+      bool taken = false;
+      for (const Abi abi : abis) {
+        const Layout layout{generation, abi, byte_order};
+        if (size_of(layout) != size) continue;
+        found.size_known = true;
+        if (taken || resolve(said, layout) != layout) continue;
+        found.layouts[found.count++] = layout;
+        taken = true;
+      }
+    }
+  }
+  return found;
+}
+
+/// A number that a camera could have, or none at all (its own fault, told later). Bytes that never were a double seldom
+/// look like one.
+bool is_plausible(double value) noexcept {
+  const double magnitude = std::abs(value);
+  return !std::isfinite(value) || value == 0 || (magnitude > 1e-50 && magnitude < 1e12);
+}
+
+/// Whether the doubles are ones that a record of this format has.
+bool transform_fits(std::string_view image, Layout layout, std::uint32_t format) noexcept {
+  const ParamsShape shape = params_shape(layout.generation, layout.abi);
+  std::array<double, 16> matrix;
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    matrix[i] = load_double(image.data() + shape.transform + i * sizeof(double), layout.byte_order);
+  }
+  if (!has(format, euler)) return is_affine(matrix);
+  if (is_rigid(matrix)) return false;
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (!is_plausible(matrix[i])) return false;
+  }
+  // Focus and aperture stay out: there are many ways to say infinity.
+  for (std::size_t i = 0; i < 5; ++i) {
+    if (!is_plausible(load_double(image.data() + shape.lens + i * sizeof(double), layout.byte_order))) return false;
+  }
+  return true;
+}
+
+/// How well the id and the format look: known bits 2, bits that could be known one day 1, anything else 0.
+unsigned words_grade(std::uint32_t id, std::uint32_t format) noexcept {
+  if (id >= small_number) return format <= known_format_bits ? 1 : 0;
+  if (format <= known_format_bits) return 2;
+  return format < small_number ? 1 : 0;
+}
+
+/// The generation that the first two words speak for when nothing else does: padding is zero rather than a known mask,
+/// and the default format is sent by cameras with low numbers.
+Generation likely_generation(std::uint32_t first, std::uint32_t second) noexcept {
+  return second != 0 || first < camera_numbers ? Generation::identified : Generation::document;
+}
+
+/// One way to read a parameter image, and what speaks for it.
+struct Reading {
+  Layout layout;
+  unsigned words = 0;
+  bool fits = false;
+  bool known = false;  ///< of the generation that the sender is known to speak
+  unsigned weight = 0;
+};
+
+Reading judge(std::string_view image, Layout layout, std::optional<Generation> known,
+              std::optional<Layout> seen) noexcept {
+  const ParamsShape shape = params_shape(layout.generation, layout.abi);
+  const auto first = load<std::uint32_t>(image.data(), layout.byte_order);
+  const auto second = load<std::uint32_t>(image.data() + 4, layout.byte_order);
+  const auto format = load<std::uint32_t>(image.data() + shape.format, layout.byte_order);
+  Reading r{layout};
+  r.words = words_grade(layout.generation == Generation::identified ? first : 0, format);
+  r.fits = transform_fits(image, layout, format);
+  r.known = r.words > 0 && r.fits && known == layout.generation;
+  const bool likely = layout.generation == likely_generation(first, second);
+  const bool same_order = seen && seen->byte_order == layout.byte_order;
+  const bool little = layout.byte_order == ByteOrder::little;
+  r.weight = (r.fits ? 64U : 0U) + (r.known ? 32U : 0U) + r.words * 8U + (likely ? 4U : 0U) + (same_order ? 2U : 0U) +
+             (little ? 1U : 0U);
+  return r;
+}
+
+struct Choice {
+  Reading best;
+  bool contested = false;  ///< the other generation would read as well
+};
+
+Choice choose(std::string_view image, const Candidates& candidates, std::optional<Generation> known,
+              std::optional<Layout> seen) noexcept {
+  std::array<Reading, generations.size() * byte_orders.size()> readings;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < candidates.count; ++i) {
+    readings[i] = judge(image, candidates.layouts[i], known, seen);
+    if (readings[i].weight > readings[best].weight) best = i;
+  }
+  Choice choice{readings[best]};
+  for (std::size_t i = 0; i < candidates.count; ++i) {
+    const bool other = readings[i].layout.generation != choice.best.layout.generation;
+    if (other && readings[i].fits && readings[i].words > 0) choice.contested = true;
+  }
+  return choice;
+}
+
+bool is_picture_size(std::int32_t value) noexcept {
+  return std::abs(static_cast<std::int64_t>(value)) < std::int64_t{small_number};
+}
+
+bool is_sound(const CameraConstants& c) noexcept {
+  for (const std::int32_t* const value : pixels_of(c)) {
+    if (!is_picture_size(*value)) return false;
+  }
+  for (const double* const value : sizes_of(c)) {
+    if (!is_plausible(*value)) return false;
+  }
+  // A size has both its sides or none: when the id is taken for the width, one is missing.
+  return (c.image_width == 0) == (c.image_height == 0) && (c.chip_width == 0) == (c.chip_height == 0);
+}
+
+}  // namespace
+
+std::uint64_t LayoutSenseAccess::counter(std::string_view image, Layout& layout, LayoutSense& sense) noexcept {
+  constexpr std::uint64_t most_lost = 0x10000;
+  constexpr unsigned half = 32;
+  const char* const at = image.data() + params_shape(layout.generation, Abi::lp64).counter;
+  const auto wide = load<std::uint64_t>(at, layout.byte_order);
+  if (sense.last_wide_counter_) {
+    const std::uint64_t last = *sense.last_wide_counter_;
+    if (wide >> half == (last >> half) + 1 && wide - last < most_lost) sense.counter_abi_ = Abi::lp64;
+  }
+  sense.last_wide_counter_ = wide;
+  if (wide >> half != 0 && !sense.counter_abi_) sense.counter_abi_ = Abi::llp64;
+  layout.abi = sense.counter_abi_.value_or(Abi::lp64);
+  return layout.abi == Abi::lp64 ? wide : load<std::uint32_t>(at, layout.byte_order);
+}
+
+tl::expected<Decoded, Fault> LayoutSenseAccess::params(std::string_view image, LayoutSense& sense) noexcept {
+  const LayoutChoice& said = sense.said_;
+  const Candidates candidates = candidates_for(image.size(), said, params_size);
+  if (candidates.count == 0) return tl::unexpected(candidates.fault_if_none());
+
+  const auto known = sense.told_by_constants_ ? sense.told_by_constants_ : sense.evident_;
+  const auto [best, contested] = choose(image, candidates, known, sense.seen_);
+  if (!best.fits && !said.generation) return tl::unexpected(Fault{Reason::no_sound_layout});
+  Layout layout = best.layout;
+  auto params = params_from_image(image, layout);
+  if (!params) return tl::unexpected(params.error());
+  if (!said.abi && layout.abi == Abi::lp64) params->counter = counter(image, layout, sense);
+
+  if (best.words == 2 && !contested) sense.evident_ = layout.generation;
+  sense.seen_ = layout;
+  const bool same_either_way = params->id == 0 && params->format == 0;
+  return Decoded{*params, {Encoding::binary, layout}, contested && !best.known && !same_either_way};
+}
+
+tl::expected<Decoded, Fault> LayoutSenseAccess::constants(std::string_view image, LayoutSense& sense) noexcept {
+  const LayoutChoice& said = sense.said_;
+  const Candidates candidates = candidates_for(image.size(), said, constants_size);
+  if (candidates.count == 0) return tl::unexpected(candidates.fault_if_none());
+
+  std::optional<Layout> chosen;
+  bool sound = false;
+  for (const Layout layout : candidates) {
+    const auto constants = constants_from_image(image, layout);
+    const bool this_sound = constants && is_sound(*constants);
+    const bool as_seen = sense.seen_ && sense.seen_->byte_order == layout.byte_order;
+    if (!chosen || (this_sound && !sound) || (this_sound == sound && as_seen)) {
+      chosen = layout;
+      sound = this_sound;
+    }
+  }
+  const auto constants = constants_from_image(image, *chosen);
+  if (!constants) return tl::unexpected(constants.error());
+  if (!sound && !said.generation) return tl::unexpected(Fault{Reason::no_sound_layout});
+
+  Layout layout = *chosen;
+  if (!said.abi && sense.seen_ && constants_size({layout.generation, sense.seen_->abi}) == image.size()) {
+    layout.abi = sense.seen_->abi;
+  }
+  sense.told_by_constants_ = layout.generation;
+  sense.seen_ = layout;
+  return Decoded{*constants, {Encoding::binary, layout}};
+}
+
+}  // namespace trk_bridge::wire

@@ -1,0 +1,29 @@
+// Words of ASCII records <-> numbers, by std::from_chars and std::to_chars: exact, and the same in every locale.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "trk_bridge/wire/fault.h"
+
+namespace trk_bridge::wire {
+
+/// Why a word is not the number asked for; nothing when it is.
+using NumberFault = std::optional<Reason>;
+
+/// Decimal as strtod takes it, without hexadecimal. Too large is out_of_range; too small is 0, with its sign; the words
+/// for NaN and infinity are not_finite.
+NumberFault read_number(std::string_view word, double& value) noexcept;
+
+/// Decimal with an optional sign, leading zeros counting for nothing.
+NumberFault read_number(std::string_view word, std::int32_t& value) noexcept;
+NumberFault read_number(std::string_view word, std::uint64_t& value) noexcept;
+
+/// Decimal digits only.
+NumberFault read_digits(std::string_view word, std::uint32_t& value) noexcept;
+
+/// Hexadecimal in either case, with or without 0x.
+NumberFault read_hexadecimal(std::string_view word, std::uint32_t& value) noexcept;
+
+}  // namespace trk_bridge::wire
