@@ -1,0 +1,78 @@
+// A shared memory slot that nobody uses, for the time of one test.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/ipc.h>
+#include <sys/shm.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace trk_bridge::test {
+
+/// Holds a slot against tests in other processes and leaves neither file nor segment behind.
+class FreeSlot {
+ public:
+  FreeSlot() {
+    // From the end: the field takes low slots.
+    for (number_ = 61; number_ >= 0; --number_) {
+      lock_ = ::open(lock_path().c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+      if (lock_ < 0) continue;
+      if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 && ::access(path().c_str(), F_OK) != 0) return;
+      ::close(lock_);
+    }
+    throw std::runtime_error("no shared memory slot is free");
+  }
+
+  ~FreeSlot() {
+    remove();
+    ::close(lock_);
+  }
+
+  FreeSlot(const FreeSlot&) = delete;
+  FreeSlot& operator=(const FreeSlot&) = delete;
+
+  int number() const { return number_; }
+
+  std::string path() const {
+    const std::string names = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+    return std::string("/tmp/dmc_tracking_buffer.") + names[static_cast<std::size_t>(number_)];
+  }
+
+  bool has_file() const { return ::access(path().c_str(), F_OK) == 0; }
+
+  /// -1: none.
+  int segment() const {
+    const key_t key = has_file() ? ::ftok(path().c_str(), 0) : -1;
+    return key == -1 ? -1 : ::shmget(key, 0, 0);
+  }
+
+  /// Makes file and segment as another program would. Returns its id.
+  int make_segment(std::size_t size, int mode = 0666) {
+    const int fd = ::open(path().c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0755);
+    if (fd < 0) throw std::runtime_error("cannot make " + path());
+    ::close(fd);
+    const int id = ::shmget(::ftok(path().c_str(), 0), size, IPC_CREAT | IPC_EXCL | mode);
+    if (id < 0) throw std::runtime_error("cannot make a segment for " + path());
+    return id;
+  }
+
+  /// As an administrator does with ipcrm and rm.
+  void remove() {
+    if (const int id = segment(); id >= 0) ::shmctl(id, IPC_RMID, nullptr);
+    ::unlink(path().c_str());
+  }
+
+ private:
+  // Stays: a lock file that is removed can be held twice.
+  std::string lock_path() const { return "/tmp/trk_bridge_test_slot." + std::to_string(number_); }
+
+  int number_ = -1;
+  int lock_ = -1;
+};
+
+}  // namespace trk_bridge::test
