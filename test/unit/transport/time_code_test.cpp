@@ -34,8 +34,8 @@ TEST(TimeCode, EveryWrongTextIsNamed) {
 }
 
 TEST(TimeCode, FieldsOfPalAreTwentyMilliseconds) {
-  const TimeCode code{10, 20, 30, 12, 2};
-  EXPECT_EQ(nanoseconds_of(code, 50.0, 0), (10 * 3600 + 20 * 60 + 30) * second + 25 * 20'000'000LL);
+  const TimeCode code{10, 20, 30, 24, 2};
+  EXPECT_EQ(nanoseconds_of(code, 50.0, 0), (10 * 3600 + 20 * 60 + 30) * second + 980'000'000LL);
   EXPECT_EQ(nanoseconds_of(code, 50.0, 1), (10 * 3600 + 20 * 60 + 31) * second);
 }
 

@@ -1,0 +1,40 @@
+#include "arguments.h"
+
+#include <exception>
+#include <iostream>
+
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::tools {
+
+transport::Endpoint endpoint_of(const std::string& url, transport::Direction direction) {
+  auto endpoint = transport::parse_endpoint(url, direction);
+  if (!endpoint) throw CLI::ValidationError(endpoint.error());
+  return *std::move(endpoint);
+}
+
+std::uint32_t format_of(const std::string& words) {
+  const auto format = wire::format_from_words(words);
+  if (!format) throw CLI::ValidationError("--format: " + format.error());
+  if (const auto sound = wire::check_writable(*format); !sound)
+    throw CLI::ValidationError("--format: " + sound.error());
+  return *format;
+}
+
+ExitCode run_program(CLI::App& app, int argc, const char* const* argv, const std::function<ExitCode()>& run) {
+  try {
+    app.parse(argc, argv);
+    return run();
+  } catch (const CLI::Success& help) {
+    app.exit(help);
+    return exit_good;
+  } catch (const CLI::Error& error) {
+    std::cerr << app.get_name() << ": error: " << error.what() << "\nRun with --help for more information.\n";
+    return exit_usage;
+  } catch (const std::exception& error) {
+    std::cerr << app.get_name() << ": error: " << error.what() << '\n';
+    return exit_failed;
+  }
+}
+
+}  // namespace trk_bridge::tools

@@ -1,0 +1,28 @@
+// Arguments that several programs share, and how their errors end a program.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "exit_code.h"
+#include "trk_bridge/transport/endpoint.h"
+
+namespace trk_bridge::tools {
+
+/// For the end of a help text.
+inline constexpr const char* endpoints_help =
+    "An endpoint is udp://[HOST]:PORT, shm:SLOT or file:PATH, with options behind a question mark.";
+
+/// Both throw CLI::ValidationError with the parser's text.
+transport::Endpoint endpoint_of(const std::string& url, transport::Direction);
+/// A format that records may be made in.
+std::uint32_t format_of(const std::string& words);
+
+/// Parses, runs, and turns what is thrown into one line on standard error and an exit code: exit_usage for CLI's
+/// errors, exit_failed for all others.
+ExitCode run_program(CLI::App&, int argc, const char* const* argv, const std::function<ExitCode()>& run);
+
+}  // namespace trk_bridge::tools

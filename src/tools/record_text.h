@@ -1,0 +1,33 @@
+// A received record as one line: JSON for programs, plain text for people.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <rapidjson/stringbuffer.h>
+
+#include "trk_bridge/transport/source.h"
+
+namespace trk_bridge::tools {
+
+/// One JSON object a record. Doubles are the shortest text that reads back to the same double; `arrival` is seconds
+/// since 1970 UTC with nine decimals, which is exact where a double would not be; what is not finite is null. The view
+/// holds until the next call.
+class JsonLine {
+ public:
+  std::string_view of(const transport::Sample&);
+
+ private:
+  rapidjson::StringBuffer buffer_;
+};
+
+/// The same for a person: time, sender, id, counter, format words, and every number with its unit.
+std::string plain_line(const transport::Sample&);
+
+/// "1700000000.123456789".
+std::string seconds_text(std::int64_t nanoseconds);
+/// "2023-11-14T22:13:20.123456789Z".
+std::string iso_time(std::int64_t nanoseconds);
+
+}  // namespace trk_bridge::tools

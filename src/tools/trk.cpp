@@ -1,0 +1,104 @@
+// trk: one tool over endpoints.
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sys/stat.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include "arguments.h"
+#include "dump.h"
+#include "exit_code.h"
+#include "relay.h"
+#include "stop_signals.h"
+#include "trk_bridge/transport/sink.h"
+#include "trk_bridge/transport/source.h"
+
+namespace trk_bridge::tools {
+namespace {
+
+bool is_regular_file(int fd) {
+  struct stat there {};
+  return ::fstat(fd, &there) == 0 && S_ISREG(there.st_mode);
+}
+
+class DumpCommand {
+ public:
+  explicit DumpCommand(CLI::App& app)
+      : command_(app.add_subcommand("dump", "Print what comes from SOURCE, a record a line")) {
+    command_->footer(endpoints_help);
+    command_->add_option("SOURCE", url_, "Where records come from")->required();
+    command_->add_flag("--json", options_.json, "A JSON object a line");
+    command_->add_option("--count", options_.count, "End after N records")->check(CLI::PositiveNumber)->type_name("N");
+    command_->add_option("--seconds", options_.seconds, "End after S seconds")
+        ->check(CLI::PositiveNumber)
+        ->type_name("S");
+  }
+  bool is_asked_for() const { return command_->parsed(); }
+
+  ExitCode run() {
+    const auto source = transport::open_source(endpoint_of(url_, transport::Direction::read));
+    const StopSignals signals(source.get());
+    options_.flush_each = !is_regular_file(STDOUT_FILENO);
+    return dump(*source, options_, std::cout, std::cerr);
+  }
+
+ private:
+  CLI::App* command_;
+  std::string url_;
+  DumpOptions options_;
+};
+
+class RelayCommand {
+ public:
+  explicit RelayCommand(CLI::App& app)
+      : command_(app.add_subcommand("relay",
+                                    "Pass on what comes from SOURCE to every SINK: record, play, convert, fan out")) {
+    command_->footer(endpoints_help);
+    command_->add_option("SOURCE", source_url_, "Where records come from")->required();
+    command_->add_option("SINK", sink_urls_, "Where they go")->required()->expected(1, -1);
+    command_
+        ->add_option("--format", format_words_,
+                     "Format words, in quotes, in which parameters are passed on; default: as they come")
+        ->type_name("WORDS");
+    command_->add_option("--id", options_.id, "Camera number in place of the one that came")->type_name("N");
+  }
+  bool is_asked_for() const { return command_->parsed(); }
+
+  ExitCode run() {
+    if (format_words_) options_.format = format_of(*format_words_);
+    const auto from = endpoint_of(source_url_, transport::Direction::read);
+    std::vector<transport::Endpoint> to;
+    for (const auto& url : sink_urls_) to.push_back(endpoint_of(url, transport::Direction::write));
+
+    const auto source = transport::open_source(from);
+    std::vector<std::unique_ptr<transport::Sink>> sinks;
+    for (const auto& endpoint : to) sinks.push_back(transport::open_sink(endpoint));
+    const StopSignals signals(source.get());
+    return relay(*source, std::move(sinks), options_, std::cerr);
+  }
+
+ private:
+  CLI::App* command_;
+  std::string source_url_;
+  std::vector<std::string> sink_urls_;
+  std::optional<std::string> format_words_;
+  RelayOptions options_;
+};
+
+}  // namespace
+}  // namespace trk_bridge::tools
+
+int main(int argc, char** argv) {
+  using namespace trk_bridge::tools;
+  std::ios::sync_with_stdio(false);
+  CLI::App app("Shows, records, plays and converts camera tracking data.", "trk");
+  app.require_subcommand(1);
+  DumpCommand dump_command(app);
+  RelayCommand relay_command(app);
+  return run_program(app, argc, argv,
+                     [&] { return dump_command.is_asked_for() ? dump_command.run() : relay_command.run(); });
+}
