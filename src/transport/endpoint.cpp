@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <ctime>
-#include <type_traits>
+#include <utility>
 
 #include "trk_bridge/transport/take_file.h"
 #include "url.h"
@@ -72,7 +72,11 @@ bool assign_hosts(const std::string& value, std::vector<std::string>& to) {
   for (std::size_t begin = 0; begin <= value.size();) {
     const std::size_t end = std::min(value.find(',', begin), value.size());
     if (end == begin) return false;
-    to.push_back(value.substr(begin, end - begin));
+    std::string host = value.substr(begin, end - begin);
+    // As in a URL's host, an IPv6 address may stand in brackets.
+    if (host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+    if (host.empty()) return false;
+    to.push_back(std::move(host));
     begin = end + 1;
   }
   return true;

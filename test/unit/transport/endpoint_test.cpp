@@ -134,6 +134,7 @@ TEST(Endpoint, ABadValueNamesKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(read_error("udp://:1?layout=klingon"), AllOf(HasSubstr("klingon"), HasSubstr("identified")));
   EXPECT_THAT(read_error("udp://:1?allow=a,,b"), HasSubstr("\"a,,b\""));
   EXPECT_THAT(read_error("udp://:1?allow="), HasSubstr("allow"));
+  EXPECT_THAT(read_error("udp://:1?allow=[]"), HasSubstr("\"[]\""));
   EXPECT_THAT(read_error("udp://:1?interface="), HasSubstr("interface"));
   EXPECT_THAT(write_error("shm:7?mode=0888"), HasSubstr("octal"));
   EXPECT_THAT(write_error("shm:7?mode=1000"), HasSubstr("0777"));
