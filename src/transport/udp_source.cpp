@@ -228,6 +228,8 @@ UdpSource::UdpSource(const UdpEndpoint& endpoint) : bound_(open_bound(endpoint))
   name_ = describe_place(endpoint, bound_.address);
   const int fd = bound_.socket.get();
   if (endpoint.buffer) enlarge_buffer(fd, *endpoint.buffer);
+  // The first socket of a machine to ask wakes the stamping, which takes the kernel a moment: a datagram that comes
+  // within it is stamped when it is read.
   set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1, "receive times");
   if (!dropped_by_kernel(fd)) throw TransportError("the kernel does not count its drops (Linux 4.12 or later does)");
   for (const std::string& host : endpoint.allow) {
