@@ -38,7 +38,9 @@ function(trk_bridge_gtest name)
   cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
   if(TRK_BRIDGE_ROS)
     catkin_add_gmock(${name} ${ARG_UNPARSED_ARGUMENTS})
-    target_link_libraries(${name} ${ARG_LIBS} trk_bridge_options trk_bridge_test_support gmock_main)
+    # The main one needs the other: archives are searched in order.
+    target_link_libraries(${name} ${ARG_LIBS} trk_bridge_options trk_bridge_test_support
+      ${GMOCK_MAIN_LIBRARIES} ${GMOCK_LIBRARIES})
   else()
     add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
     target_link_libraries(${name} ${ARG_LIBS} trk_bridge_options trk_bridge_test_support GTest::gmock_main)

@@ -1,6 +1,5 @@
 #include <cctype>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "trk_bridge/camera/camera.h"
@@ -60,11 +59,8 @@ void check_frames(const CameraParameters& camera, Faults& faults) {
 
 void check_format(const CameraParameters& camera, Faults& faults) {
   if (camera.format == as_received) return;
-  const auto mask = wire::format_from_words(camera.format);
-  if (!mask) {
+  if (const auto mask = wire::format_from_words(camera.format); !mask) {
     faults.add("format", quoted(camera.format), mask.error() + "; or " + as_received);
-  } else if (const auto writable = wire::check_writable(*mask); !writable) {
-    faults.add("format", quoted(camera.format), writable.error());
   }
 }
 
