@@ -44,9 +44,9 @@ Eigen::Vector2d undistort(const Lens& lens, const Eigen::Vector2d& distorted) no
 }
 
 double monotonic_radius(const Lens& lens) noexcept {
-  // The slope is 1 + 3 k1 R + 5 k2 R^2 with R the squared radius. In units that keep both coefficients at 1 or less
-  // nothing overflows.
-  const double unit = std::max(3 * std::abs(lens.k1), std::sqrt(5.0) * std::sqrt(std::abs(lens.k2)));
+  // The slope is 1 + 3 k1 R + 5 k2 R^2 with R the squared radius. In units that keep k1 and k2 at 1 or less nothing
+  // overflows.
+  const double unit = std::max(std::abs(lens.k1), std::sqrt(std::abs(lens.k2)));
   if (!(unit > 0)) return infinity;
   const double b = 3 * (lens.k1 / unit);
   const double a = 5 * (lens.k2 / unit / unit);
@@ -77,7 +77,9 @@ Result<Eigen::Vector2d> distort(const Lens& lens, const Eigen::Vector2d& undisto
   const double high = std::isfinite(limit) ? limit : 2.25 * wanted;
   if (excess(high).value < 0) return tl::unexpected(CameraReason::not_monotonic);
   const double radius = increasing_root(excess, 0, high, std::min(wanted, high));
-  return Eigen::Vector2d(radius / wanted * from_axis - lens.center_shift);
+  const Eigen::Vector2d distorted = radius / wanted * from_axis - lens.center_shift;
+  if (!distorted.allFinite()) return tl::unexpected(CameraReason::not_finite);
+  return distorted;
 }
 
 double image_reach(const Lens& lens, const Raster& raster) noexcept {

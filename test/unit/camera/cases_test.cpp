@@ -3,9 +3,10 @@
 
 #include <cmath>
 
-#include "trk_bridge/camera/camera.h"
+#include "trk_bridge/camera/calibration.h"
+#include "trk_bridge/camera/image.h"
 #include "trk_bridge/wire/format.h"
-#include "vectors.h"
+#include "worked_cases.h"
 
 namespace trk_bridge::camera {
 namespace {
@@ -22,78 +23,99 @@ void expect_angle(double actual, double expected, const std::string& what) {
       << what << ": " << actual << " instead of " << expected;
 }
 
-Camera expected_camera(const rapidjson::Value& line) {
-  const auto& expect = line["expect"];
-  Camera camera;
-  for (rapidjson::SizeType i = 0; i < 16; ++i) {
-    camera.pose.matrix()(i / 4, i % 4) = expect["studio_T_camera_rows"][i].GetDouble();
+template <typename A, typename B>
+void expect_all_near(const A& actual, const B& expected, const std::string& what) {
+  for (Eigen::Index i = 0; i < actual.size(); ++i) {
+    expect_near(actual(i), expected(i), what + " element " + std::to_string(i));
   }
-  camera.lens.image_distance = expect["image_distance_mm"].GetDouble();
-  camera.lens.center_shift = {expect["center_shift_mm"][0].GetDouble(), expect["center_shift_mm"][1].GetDouble()};
-  camera.lens.k1 = line["params"]["k1"].GetDouble();
-  camera.lens.k2 = line["params"]["k2"].GetDouble();
-  camera.lens.focdist = line["params"]["focdist"].GetDouble();
-  camera.lens.aperture = line["params"]["aperture"].GetDouble();
-  return camera;
 }
 
-TEST(WorkedCases, DecodeToTheExpectedCamera) {
-  for (const auto& line : test::read_jsonl("camera_cases.jsonl")) {
-    SCOPED_TRACE("mask " + std::to_string(line["mask"].GetUint()));
-    const auto constants = test::constants_of(line["constants"]);
-    const auto camera = decode(test::case_params_of(line["params"]), &constants);
+class WorkedCases : public ::testing::Test {
+ protected:
+  const std::vector<test::WorkedCase> cases = test::worked_cases();
+};
+
+TEST_F(WorkedCases, AreAllThere) { EXPECT_EQ(cases.size(), 256U); }
+
+TEST_F(WorkedCases, DecodeToTheExpectedCamera) {
+  for (const auto& c : cases) {
+    SCOPED_TRACE("mask " + std::to_string(c.mask));
+    const auto camera = decode(c.params, &c.constants);
     ASSERT_TRUE(camera) << describe(camera.error());
-    const Camera expected = expected_camera(line);
-    for (int i = 0; i < 16; ++i) {
-      expect_near(camera->pose.matrix()(i / 4, i % 4), expected.pose.matrix()(i / 4, i % 4),
-                  "pose element " + std::to_string(i));
-    }
+    expect_all_near(camera->pose.matrix().reshaped(), c.camera.pose.matrix().reshaped(), "pose");
     const PanTiltRoll angles = pan_tilt_roll(camera->pose.linear());
-    const auto& euler = line["expect"]["euler"];
-    expect_near(camera->pose.translation().x(), euler["x"].GetDouble(), "x");
-    expect_near(camera->pose.translation().y(), euler["y"].GetDouble(), "y");
-    expect_near(camera->pose.translation().z(), euler["z"].GetDouble(), "z");
-    expect_angle(angles.pan, euler["pan"].GetDouble(), "pan");
-    expect_angle(angles.tilt, euler["tilt"].GetDouble(), "tilt");
-    expect_angle(angles.roll, euler["roll"].GetDouble(), "roll");
-    expect_near(camera->lens.image_distance, expected.lens.image_distance, "image distance");
-    expect_near(camera->lens.center_shift.x(), expected.lens.center_shift.x(), "centre shift x");
-    expect_near(camera->lens.center_shift.y(), expected.lens.center_shift.y(), "centre shift y");
-    EXPECT_EQ(camera->lens.k1, expected.lens.k1);
-    EXPECT_EQ(camera->lens.k2, expected.lens.k2);
-    EXPECT_EQ(camera->lens.focdist, expected.lens.focdist);
-    EXPECT_EQ(camera->lens.aperture, expected.lens.aperture);
+    expect_angle(angles.pan, c.angles.pan, "pan");
+    expect_angle(angles.tilt, c.angles.tilt, "tilt");
+    expect_angle(angles.roll, c.angles.roll, "roll");
+    expect_near(camera->lens.image_distance, c.camera.lens.image_distance, "image distance");
+    expect_all_near(camera->lens.center_shift, c.camera.lens.center_shift, "centre shift");
+    EXPECT_EQ(camera->lens.k1, c.params.k1);
+    EXPECT_EQ(camera->lens.k2, c.params.k2);
+    EXPECT_EQ(camera->lens.focdist, c.params.focdist);
+    EXPECT_EQ(camera->lens.aperture, c.params.aperture);
   }
 }
 
-TEST(WorkedCases, EncodeToTheParametersOfTheSender) {
-  for (const auto& line : test::read_jsonl("camera_cases.jsonl")) {
-    const std::uint32_t mask = line["mask"].GetUint();
-    SCOPED_TRACE("mask " + std::to_string(mask));
-    const auto constants = test::constants_of(line["constants"]);
-    const auto params = encode(expected_camera(line), mask, &constants);
+TEST_F(WorkedCases, EncodeToTheParametersOfTheSender) {
+  for (const auto& c : cases) {
+    SCOPED_TRACE("mask " + std::to_string(c.mask));
+    const auto params = encode(c.camera, c.mask, &c.constants);
     ASSERT_TRUE(params) << describe(params.error());
-    const wire::CameraParams expected = test::case_params_of(line["params"]);
-    EXPECT_EQ(params->format, mask);
-    if (wire::has(mask, wire::euler)) {
-      expect_near(params->euler.x, expected.euler.x, "x");
-      expect_near(params->euler.y, expected.euler.y, "y");
-      expect_near(params->euler.z, expected.euler.z, "z");
-      expect_angle(params->euler.pan, expected.euler.pan, "pan");
-      expect_angle(params->euler.tilt, expected.euler.tilt, "tilt");
-      expect_angle(params->euler.roll, expected.euler.roll, "roll");
+    EXPECT_EQ(params->format, c.mask);
+    if (wire::has(c.mask, wire::euler)) {
+      expect_near(params->euler.x, c.params.euler.x, "x");
+      expect_near(params->euler.y, c.params.euler.y, "y");
+      expect_near(params->euler.z, c.params.euler.z, "z");
+      expect_angle(params->euler.pan, c.params.euler.pan, "pan");
+      expect_angle(params->euler.tilt, c.params.euler.tilt, "tilt");
+      expect_angle(params->euler.roll, c.params.euler.roll, "roll");
     } else {
       for (std::size_t i = 0; i < 16; ++i) {
-        expect_near(params->matrix[i], expected.matrix[i], "matrix element " + std::to_string(i));
+        expect_near(params->matrix[i], c.params.matrix[i], "matrix element " + std::to_string(i));
       }
     }
-    expect_near(params->fov, expected.fov, "fov");
-    expect_near(params->center_x, expected.center_x, "centerX");
-    expect_near(params->center_y, expected.center_y, "centerY");
-    EXPECT_EQ(params->k1, expected.k1);
-    EXPECT_EQ(params->k2, expected.k2);
-    EXPECT_EQ(params->focdist, expected.focdist);
-    EXPECT_EQ(params->aperture, expected.aperture);
+    expect_near(params->fov, c.params.fov, "fov");
+    expect_near(params->center_x, c.params.center_x, "centerX");
+    expect_near(params->center_y, c.params.center_y, "centerY");
+    EXPECT_EQ(params->k1, c.params.k1);
+    EXPECT_EQ(params->k2, c.params.k2);
+    EXPECT_EQ(params->focdist, c.params.focdist);
+    EXPECT_EQ(params->aperture, c.params.aperture);
+  }
+}
+
+TEST_F(WorkedCases, ShowTheirPointsAtTheirPixels) {
+  for (const auto& c : cases) {
+    SCOPED_TRACE("mask " + std::to_string(c.mask));
+    const auto camera = decode(c.params, &c.constants);
+    ASSERT_TRUE(camera) << describe(camera.error());
+    const Raster raster = raster_of(c.constants);
+    for (const auto& point : c.points) {
+      const Eigen::Vector3d in_camera = camera->pose.inverse() * point.studio;
+      expect_all_near(in_camera, point.camera, "camera coordinates");
+      const auto pinhole = project(camera->lens, in_camera);
+      ASSERT_TRUE(pinhole) << describe(pinhole.error());
+      expect_all_near(to_pixel(raster, *pinhole), point.pinhole, "undistorted pixel");
+      const auto distorted = distort(camera->lens, *pinhole);
+      ASSERT_TRUE(distorted) << describe(distorted.error());
+      expect_all_near(to_pixel(raster, *distorted), point.distorted, "distorted pixel");
+      expect_all_near(to_pixel(raster, undistort(camera->lens, to_chip(raster, point.distorted))), point.pinhole,
+                      "undistorted again");
+    }
+  }
+}
+
+TEST_F(WorkedCases, HaveTheExpectedCameraMatrix) {
+  for (const auto& c : cases) {
+    SCOPED_TRACE("mask " + std::to_string(c.mask));
+    const auto lens = decode_lens(c.params, &c.constants);
+    ASSERT_TRUE(lens) << describe(lens.error());
+    Calibrator calibrator;
+    const auto calibration = calibrator.calibrate(*lens, c.constants);
+    ASSERT_TRUE(calibration) << describe(calibration.error());
+    for (std::size_t i = 0; i < 9; ++i) expect_near(calibration->k[i], c.k[i], "K element " + std::to_string(i));
+    EXPECT_EQ(static_cast<std::int32_t>(calibration->width), c.constants.image_width);
+    EXPECT_EQ(static_cast<std::int32_t>(calibration->height), c.constants.image_height);
   }
 }
 

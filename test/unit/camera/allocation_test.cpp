@@ -1,0 +1,76 @@
+// What runs for every sample allocates nothing.
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "random_cameras.h"
+#include "trk_bridge/camera/calibration.h"
+#include "trk_bridge/camera/image.h"
+
+namespace {
+std::atomic<std::uint64_t> allocations{0};
+}  // namespace
+
+// Eigen asks malloc, not operator new, and new asks malloc: one place sees both. glibc lets a program put its own in
+// front.
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
+
+namespace trk_bridge::camera {
+namespace {
+
+template <typename Work>
+std::uint64_t allocations_of(const Work& work) {
+  const std::uint64_t before = allocations.load();
+  work();
+  return allocations.load() - before;
+}
+
+TEST(Allocation, IsSeenByThisTest) {
+  void* volatile block = nullptr;
+  EXPECT_EQ(allocations_of([&block] { block = ::operator new(100); }), 1U);
+  ::operator delete(block);
+}
+
+TEST(Allocation, DoesNotHappenForSamples) {
+  test::RandomCameras random;
+  const auto masks = test::meaningful_masks();
+  const wire::CameraConstants constants = random.constants();
+  bool all_good = true;
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    const Camera camera = random.camera();
+    count += allocations_of([&] {
+      const auto params = encode(camera, masks[i], &constants);
+      const auto back = params ? decode(*params, &constants) : tl::unexpected(params.error());
+      const auto told = params ? reexpress(*params, masks[masks.size() - 1 - i], &constants, &constants) : params;
+      const auto refused = encode(camera, 0x400, &constants);
+      all_good = all_good && back && told && !refused;
+    });
+  }
+  EXPECT_TRUE(all_good);
+  EXPECT_EQ(count, 0U);
+}
+
+TEST(Allocation, DoesNotHappenForCalibrations) {
+  const wire::CameraConstants constants{0, 1920, 1080, 0, 0, 0, 0, 9.59, 5.39, 0, 0};
+  Calibrator calibrator;
+  bool all_good = true;
+  const std::uint64_t count = allocations_of([&] {
+    for (int i = 0; i < 20; ++i) {
+      // Every second one is a new lens, mild ones for plumb_bob and strong ones for rational_polynomial.
+      const Lens lens{8, {0.1, 0.1}, -1e-4 * (i / 2), -3e-6 * (i / 2), 0, 0};
+      all_good = all_good && calibrator.calibrate(lens, constants) && distort(lens, {1, 1});
+    }
+  });
+  EXPECT_TRUE(all_good);
+  EXPECT_EQ(calibrator.fits(), 10U);
+  EXPECT_EQ(count, 0U);
+}
+
+}  // namespace
+}  // namespace trk_bridge::camera

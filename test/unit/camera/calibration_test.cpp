@@ -1,0 +1,295 @@
+#include "trk_bridge/camera/calibration.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "trk_bridge/camera/image.h"
+
+namespace trk_bridge::camera {
+namespace {
+
+using ::testing::Each;
+using ::testing::ElementsAre;
+using wire::CameraConstants;
+
+const CameraConstants hd{0, 1920, 1080, 0, 0, 0, 0, 9.59, 5.39, 0, 0};
+const double corner = std::hypot(9.59, 5.39) / 2;
+
+/// A lens with u = `at_corner` in the corner of the picture, `share` of it by k1.
+Lens lens_with(double at_corner, double share) {
+  const double squared = corner * corner;
+  const double excess = at_corner - 1;
+  return Lens{8, {0, 0}, excess * share / squared, excess * (1 - share) / (squared * squared), 0, 0};
+}
+
+/// OpenCV's radial distortion, from its documentation.
+double opencv_factor(const Distortion& distortion, double q) {
+  const auto& d = distortion.d;
+  const double s = q * q;
+  const double polynomial = 1 + d[0] * s + d[1] * s * s + d[4] * s * s * s;
+  return distortion.model == DistortionModel::plumb_bob ? polynomial
+                                                        : polynomial / (1 + d[5] * s + d[6] * s * s + d[7] * s * s * s);
+}
+
+/// The worst distance along the longer pixels between where K and D put a point and where the lens shows it.
+double measured_residual(const Lens& lens, const CameraConstants& constants, const Distortion& distortion) {
+  const Raster raster = raster_of(constants);
+  const double reach = image_reach(lens, raster);
+  double worst = 0;
+  for (int i = 1; i <= 2000; ++i) {
+    const double r = reach * i / 2000;
+    const double undistorted = undistort(lens, Eigen::Vector2d(r, 0) - lens.center_shift).x() + lens.center_shift.x();
+    const double told = undistorted * opencv_factor(distortion, undistorted / lens.image_distance);
+    worst = std::max(worst, std::abs(told - r) * std::max(raster.mx, raster.my));
+  }
+  return worst;
+}
+
+TEST(Calibrator, IsAsNearAsTheModelsCanBe) {
+  struct Row {
+    double at_corner, share;
+    DistortionModel model;
+    double residual;
+  };
+  const Row rows[] = {{1.003, 0.5, DistortionModel::plumb_bob, 0.0005},
+                      {1.041, 0.3, DistortionModel::plumb_bob, 0.0065},
+                      {0.925, 0.9, DistortionModel::rational_polynomial, 0.0001},
+                      {1.257, 0.5, DistortionModel::rational_polynomial, 0.00025},
+                      {0.843, 1.0, DistortionModel::rational_polynomial, 0.00025}};
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.at_corner);
+    const Lens lens = lens_with(row.at_corner, row.share);
+    Calibrator calibrator;
+    const auto calibration = calibrator.calibrate(lens, hd);
+    ASSERT_TRUE(calibration) << describe(calibration.error());
+    const Distortion& distortion = calibration->distortion;
+    EXPECT_EQ(distortion.model, row.model);
+    EXPECT_LE(distortion.residual, row.residual);
+    EXPECT_NEAR(distortion.residual, measured_residual(lens, hd, distortion), 0.02 * distortion.residual + 1e-9);
+    EXPECT_EQ(distortion.d[2], 0);
+    EXPECT_EQ(distortion.d[3], 0);
+  }
+}
+
+TEST(Calibrator, FitsEveryLensThatDoesNotFold) {
+  for (double at_corner = 0.8; at_corner < 1.35; at_corner += 0.01) {
+    for (double share = -1; share <= 3; share += 0.1) {
+      SCOPED_TRACE(std::to_string(at_corner) + " " + std::to_string(share));
+      const Lens lens = lens_with(at_corner, share);
+      Calibrator calibrator;
+      const auto calibration = calibrator.calibrate(lens, hd);
+      if (monotonic_radius(lens) < corner) {
+        ASSERT_FALSE(calibration);
+        EXPECT_EQ(calibration.error(), CameraReason::not_monotonic);
+        continue;
+      }
+      ASSERT_TRUE(calibration) << describe(calibration.error());
+      const Distortion& distortion = calibration->distortion;
+      EXPECT_LE(measured_residual(lens, hd, distortion), 1.05 * distortion.residual + 1e-9);
+      // Near its fold a lens bends like a square root, which neither model can do.
+      if (monotonic_radius(lens) > 1.3 * corner && share >= 0 && share <= 2) {
+        EXPECT_LE(distortion.residual, 0.02);
+      }
+    }
+  }
+}
+
+TEST(Calibrator, HasNothingToFitWithoutDistortion) {
+  Calibrator calibrator;
+  const auto calibration = calibrator.calibrate(Lens{8, {0.1, 0.2}}, hd);
+  ASSERT_TRUE(calibration);
+  EXPECT_EQ(calibration->distortion.model, DistortionModel::plumb_bob);
+  EXPECT_THAT(calibration->distortion.d, Each(0.0));
+  EXPECT_EQ(calibration->distortion.residual, 0);
+}
+
+TEST(Calibrator, TellsKInPixelsFromTheCentreOfTheFirst) {
+  Calibrator calibrator;
+  // 4:3 chip in 720 x 576, the axis 1 mm right of the chip's centre and 0.5 mm above.
+  const auto calibration = calibrator.calibrate(Lens{10, {-1, -0.5}}, {0, 720, 576, 8, 12, 4, 2, 7, 5.7, 0, 0});
+  ASSERT_TRUE(calibration);
+  const auto& k = calibration->k;
+  EXPECT_NEAR(k[0], 1000, 1e-9);
+  EXPECT_NEAR(k[4], 1000, 1e-9);
+  EXPECT_NEAR(k[2], 8 + 350 + 100 - 0.5, 1e-9);
+  EXPECT_NEAR(k[5], 4 + 285 - 50 - 0.5, 1e-9);
+  EXPECT_EQ(k[1], 0);
+  EXPECT_EQ(k[8], 1);
+  EXPECT_EQ(calibration->width, 720U);
+  EXPECT_EQ(calibration->height, 576U);
+}
+
+TEST(Calibrator, FitsOnlyWhenTheLensChanges) {
+  Calibrator calibrator;
+  Lens lens = lens_with(0.925, 0.7);
+  ASSERT_TRUE(calibrator.calibrate(lens, hd));
+  EXPECT_EQ(calibrator.fits(), 1U);
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(calibrator.calibrate(lens, hd));
+  EXPECT_EQ(calibrator.fits(), 1U) << "a camera that only moves";
+  lens.focdist = 7;
+  lens.image_distance *= 1.5;
+  const auto zoomed = calibrator.calibrate(lens, hd);
+  ASSERT_TRUE(zoomed);
+  EXPECT_EQ(calibrator.fits(), 1U) << "a zoom at the same k1 and k2 only scales";
+  EXPECT_NEAR(measured_residual(lens, hd, zoomed->distortion), zoomed->distortion.residual, 1e-6);
+  lens.k1 *= 1.01;
+  ASSERT_TRUE(calibrator.calibrate(lens, hd));
+  EXPECT_EQ(calibrator.fits(), 2U);
+  lens.k2 *= 1.01;
+  ASSERT_TRUE(calibrator.calibrate(lens, hd));
+  EXPECT_EQ(calibrator.fits(), 3U);
+  lens.center_shift.x() = 0.1;
+  ASSERT_TRUE(calibrator.calibrate(lens, hd));
+  EXPECT_EQ(calibrator.fits(), 4U) << "the image reaches farther";
+  CameraConstants fewer_pixels = hd;
+  fewer_pixels.image_width /= 2;
+  fewer_pixels.image_height /= 2;
+  ASSERT_TRUE(calibrator.calibrate(lens, fewer_pixels));
+  EXPECT_EQ(calibrator.fits(), 5U) << "half the pixels, half the residual";
+}
+
+TEST(Calibrator, RecoversAfterALensThatFolds) {
+  Calibrator calibrator;
+  const Lens good = lens_with(0.95, 0.7);
+  const auto before = calibrator.calibrate(good, hd);
+  ASSERT_TRUE(before);
+  const auto folded = calibrator.calibrate(lens_with(0.5, 0.0), hd);
+  ASSERT_FALSE(folded);
+  EXPECT_EQ(folded.error(), CameraReason::not_monotonic);
+  const auto after = calibrator.calibrate(good, hd);
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->distortion.d, before->distortion.d);
+}
+
+TEST(Calibrator, RefusesWhatIsNoLens) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto reason = [](const Lens& lens, const CameraConstants& constants) {
+    Calibrator calibrator;
+    const auto calibration = calibrator.calibrate(lens, constants);
+    EXPECT_FALSE(calibration);
+    return calibration ? CameraReason{} : calibration.error();
+  };
+  EXPECT_EQ(reason(Lens{0}, hd), CameraReason::bad_field_of_view);
+  EXPECT_EQ(reason(Lens{-8}, hd), CameraReason::bad_field_of_view);
+  EXPECT_EQ(reason(Lens{nan}, hd), CameraReason::not_finite);
+  EXPECT_EQ(reason(Lens{8, {nan, 0}}, hd), CameraReason::not_finite);
+  EXPECT_EQ(reason(Lens{8, {0, 0}, nan, 0}, hd), CameraReason::not_finite);
+  EXPECT_EQ(reason(Lens{8, {0, 0}, 0, nan}, hd), CameraReason::not_finite);
+  EXPECT_EQ(reason(Lens{8, {0, 0}, 1e300, 1e300}, hd), CameraReason::no_fit);
+  EXPECT_EQ(reason(Lens{1e300, {0, 0}, 1e-3, 0}, hd), CameraReason::no_fit);
+  CameraConstants no_picture = hd;
+  no_picture.blank_top = 1080;
+  EXPECT_EQ(reason(Lens{8}, no_picture), CameraReason::bad_constants);
+}
+
+TEST(DistortionModels, HaveTheNamesOfSensorMsgs) {
+  EXPECT_STREQ(name(DistortionModel::plumb_bob), "plumb_bob");
+  EXPECT_STREQ(name(DistortionModel::rational_polynomial), "rational_polynomial");
+}
+
+std::vector<double> published(const Distortion& distortion) {
+  return {distortion.d.begin(), distortion.d.begin() + (distortion.model == DistortionModel::plumb_bob ? 5 : 8)};
+}
+
+TEST(LensOf, GivesBackTheLensThatWasPublished) {
+  CameraConstants constants{0, 720, 576, 8, 12, 4, 2, 9.59, 7.19, 0, 0};
+  for (const double k1 : {0.0, 1e-4, -1e-3, 3e-3}) {
+    for (const double k2 : {0.0, 1e-5, -2e-5}) {
+      SCOPED_TRACE(std::to_string(k1) + " " + std::to_string(k2 * 1e5) + "e-5");
+      const Lens lens{7.3, {0.2, -0.1}, k1, k2, 0, 0};
+      Calibrator calibrator;
+      const auto calibration = calibrator.calibrate(lens, constants);
+      ASSERT_TRUE(calibration) << describe(calibration.error());
+      const auto back = lens_of(calibration->k, published(calibration->distortion), constants);
+      ASSERT_TRUE(back) << describe(back.error());
+      EXPECT_NEAR(back->lens.image_distance, lens.image_distance, 1e-9);
+      EXPECT_LE((back->lens.center_shift - lens.center_shift).norm(), 1e-9);
+      EXPECT_LE(back->residual, 0.02);
+      EXPECT_EQ(back->tangential, 0);
+      EXPECT_NEAR(back->aspect, 0, 1e-9);
+      EXPECT_EQ(back->lens.focdist, 0);
+      const auto k = camera_matrix(back->lens, constants);
+      for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(k[i], calibration->k[i], 1e-9 * std::max(1.0, std::abs(k[i])));
+      const Raster raster = raster_of(constants);
+      for (const double u : {-0.5, 200.0, 719.5}) {
+        for (const double v : {-0.5, 300.0, 575.5}) {
+          const Eigen::Vector2d chip = undistort(lens, to_chip(raster, {u, v}));
+          const auto again = distort(back->lens, chip);
+          ASSERT_TRUE(again);
+          EXPECT_LE((to_pixel(raster, *again) - Eigen::Vector2d(u, v)).norm(), 0.02);
+        }
+      }
+    }
+  }
+}
+
+TEST(LensOf, ReadsEveryLengthOfD) {
+  const std::array<double, 9> k = {1600, 0, 959.5, 0, 1600 * (1080 / 5.39) / (1920 / 9.59), 539.5, 0, 0, 1};
+  const auto none = lens_of(k, {}, hd);
+  ASSERT_TRUE(none);
+  EXPECT_EQ(none->lens.k1, 0);
+  EXPECT_EQ(none->lens.k2, 0);
+  EXPECT_EQ(none->residual, 0);
+  EXPECT_NEAR(none->lens.image_distance, 1600 * 9.59 / 1920, 1e-12);
+  EXPECT_LE(none->lens.center_shift.norm(), 1e-12);
+  const auto four = lens_of(k, {-0.1, 0.02, 0, 0}, hd);
+  const auto five = lens_of(k, {-0.1, 0.02, 0, 0, 0}, hd);
+  const auto eight = lens_of(k, {-0.1, 0.02, 0, 0, 0, 0, 0, 0}, hd);
+  ASSERT_TRUE(four && five && eight);
+  EXPECT_GT(four->lens.k1, 0) << "barrel one way is pincushion the other";
+  EXPECT_EQ(four->lens.k1, five->lens.k1);
+  EXPECT_EQ(four->lens.k2, eight->lens.k2);
+  EXPECT_LE(four->residual, 0.3);
+}
+
+TEST(LensOf, TellsItsResidualHonestly) {
+  const std::array<double, 9> k = {1600, 0, 959.5, 0, 1600 * (1080 / 5.39) / (1920 / 9.59), 539.5, 0, 0, 1};
+  const Distortion told{DistortionModel::rational_polynomial, {-0.3, 0.1, 0, 0, -0.02, 0.05, -0.01, 0.003}, 0};
+  const auto fitted = lens_of(k, published(told), hd);
+  ASSERT_TRUE(fitted) << describe(fitted.error());
+  EXPECT_GT(fitted->residual, 1e-3);
+  EXPECT_NEAR(measured_residual(fitted->lens, hd, told), fitted->residual, 0.1 * fitted->residual);
+}
+
+TEST(LensOf, SaysHowMuchIsLost) {
+  // Without radial terms p2 moves a point in the corner by 3 p2 x^2 + p2 y^2 across and 2 p2 xy down.
+  const std::array<double, 9> k = {1000, 0, 499.5, 0, 1000, 499.5, 0, 0, 1};
+  const CameraConstants square{0, 1000, 1000, 0, 0, 0, 0, 10, 10, 0, 0};
+  const auto tangential = lens_of(k, {0, 0, 0, 1e-3, 0}, square);
+  ASSERT_TRUE(tangential);
+  EXPECT_NEAR(tangential->tangential, 1000 * 1e-3 * std::hypot(4 * 0.25, 2 * 0.25), 1e-9);
+  // fy two percent more than the chip's height says: the uppermost row is off by two percent of its distance.
+  const auto aspect = lens_of({1000, 0, 499.5, 0, 1000 / 0.98, 499.5, 0, 0, 1}, {}, square);
+  ASSERT_TRUE(aspect);
+  EXPECT_NEAR(aspect->aspect, 0.02 * 500, 1e-9);
+  EXPECT_EQ(aspect->lens.image_distance, 10);
+}
+
+TEST(LensOf, RefusesWhatIsNoCameraInfo) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::array<double, 9> good = {1600, 0, 959.5, 0, 1600, 539.5, 0, 0, 1};
+  const auto reason = [](const std::array<double, 9>& k, const std::vector<double>& d, const CameraConstants& c) {
+    const auto fitted = lens_of(k, d, c);
+    EXPECT_FALSE(fitted);
+    return fitted ? CameraReason{} : fitted.error();
+  };
+  EXPECT_EQ(reason(std::array<double, 9>{}, {}, hd), CameraReason::bad_calibration) << "an uncalibrated camera";
+  const std::pair<std::size_t, double> wrong[] = {{0, -1}, {0, nan}, {4, 0}, {2, nan}, {1, 3}, {8, 0}, {6, 1}};
+  for (const auto& [element, value] : wrong) {
+    auto k = good;
+    k[element] = value;
+    EXPECT_EQ(reason(k, {}, hd), CameraReason::bad_calibration) << "K element " << element;
+  }
+  for (const std::size_t size : {1U, 2U, 3U, 6U, 7U, 12U, 14U}) {
+    EXPECT_EQ(reason(good, std::vector<double>(size, 0.0), hd), CameraReason::bad_calibration) << size;
+  }
+  EXPECT_EQ(reason(good, {0, 0, nan, 0, 0}, hd), CameraReason::bad_calibration);
+  EXPECT_EQ(reason(good, {-3, 0, 0, 0, 0}, hd), CameraReason::not_monotonic) << "folds within the image";
+  EXPECT_EQ(reason(good, {0, 0, 0, 0, 0, -20, 0, 0}, hd), CameraReason::not_monotonic) << "a pole in the image";
+  EXPECT_EQ(reason(good, {}, {}), CameraReason::bad_constants);
+}
+
+}  // namespace
+}  // namespace trk_bridge::camera

@@ -1,0 +1,78 @@
+// One motion as the field's test program wrote it in three formats.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "trk_bridge/camera/camera.h"
+#include "trk_bridge/wire/codec.h"
+#include "vectors.h"
+
+namespace trk_bridge::camera {
+namespace {
+
+struct Take {
+  wire::CameraConstants constants;
+  std::vector<wire::CameraParams> params;
+};
+
+Take read_take(const std::string& name) {
+  std::ifstream in(test::data_path("field/takes/" + name + ".trk"));
+  Take take;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (number == 6) take.constants = wire::constants_from_text(line).value();
+    if (number >= 8) take.params.push_back(wire::params_from_text(line).value());
+  }
+  return take;
+}
+
+void expect_same_camera(const Camera& a, const Camera& b) {
+  // Six digits of angles of up to 180 degrees, of metres, of a field of view of up to 80 degrees.
+  EXPECT_LE((a.pose.linear() - b.pose.linear()).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_LE((a.pose.translation() - b.pose.translation()).norm(), 1e-5);
+  EXPECT_NEAR(a.lens.image_distance, b.lens.image_distance, 1e-5 * b.lens.image_distance);
+  EXPECT_LE((a.lens.center_shift - b.lens.center_shift).norm(), 1e-5);
+}
+
+class Takes : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Takes, AreTheSameMotion) {
+  const Take reference = read_take("euler");
+  const Take take = read_take(GetParam());
+  ASSERT_EQ(reference.params.size(), 2259U);
+  ASSERT_EQ(take.params.size(), reference.params.size());
+  for (std::size_t i = 0; i < take.params.size() && !HasFailure(); ++i) {
+    SCOPED_TRACE("set " + std::to_string(i + 1));
+    const auto expected = decode(reference.params[i], &reference.constants);
+    const auto camera = decode(take.params[i], &take.constants);
+    ASSERT_TRUE(expected && camera);
+    expect_same_camera(*camera, *expected);
+    const std::uint32_t format = reference.params[i].format;
+    const wire::CameraConstants outgoing = constants_for(take.constants, format);
+    const auto told = reexpress(take.params[i], format, &take.constants, &outgoing);
+    ASSERT_TRUE(told) << describe(told.error());
+    EXPECT_NEAR(told->fov, reference.params[i].fov, 1e-5 * told->fov);
+    EXPECT_NEAR(told->center_x, reference.params[i].center_x, 1e-6);
+    EXPECT_NEAR(told->euler.y, reference.params[i].euler.y, 1e-5);
+    EXPECT_NEAR(std::remainder(told->euler.pan - reference.params[i].euler.pan, 360), 0, 1e-3);
+  }
+}
+
+TEST_P(Takes, StayAsTheyAreInTheirOwnFormat) {
+  const Take take = read_take(GetParam());
+  for (const auto& params : take.params) {
+    const wire::CameraConstants outgoing = constants_for(take.constants, params.format);
+    EXPECT_EQ(outgoing, take.constants);
+    const auto told = reexpress(params, params.format, &take.constants, &outgoing);
+    ASSERT_TRUE(told);
+    ASSERT_EQ(*told, params);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Field, Takes,
+                         ::testing::Values("euler-ignore_blank-keep_aspect-field_of_view-vertical",
+                                           "matrix-studio_to_camera-camera_y_up-studio_y_up"));
+
+}  // namespace
+}  // namespace trk_bridge::camera
