@@ -9,8 +9,6 @@ namespace trk_bridge::wire {
 
 namespace {
 
-constexpr bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
-
 /// Takes a sign off the front; true for a minus.
 bool take_sign(std::string_view& word) noexcept {
   if (word.empty() || (word.front() != '+' && word.front() != '-')) return false;
@@ -19,10 +17,9 @@ bool take_sign(std::string_view& word) noexcept {
   return minus;
 }
 
-/// The whole of `digits`, all of them digits of `base`.
+/// The whole of `digits`, all of them digits of `base`; behind a minus when T is signed.
 template <class T>
 NumberFault read_whole(std::string_view digits, T& value, int base) noexcept {
-  if (digits.empty() || digits.front() == '-') return Reason::not_a_number;
   const char* const end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, value, base);
   if (stop != end || error == std::errc::invalid_argument) return Reason::not_a_number;
@@ -66,18 +63,10 @@ NumberFault read_number(std::string_view word, double& value) noexcept {
 }
 
 NumberFault read_number(std::string_view word, std::int32_t& value) noexcept {
-  if (!word.empty() && word.front() == '+') {
-    word.remove_prefix(1);
-    return read_whole(word, value, 10);
-  }
-  std::string_view digits = word;
-  take_sign(digits);
-  if (digits.empty() || !is_digit(digits.front())) return Reason::not_a_number;
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, value, 10);
-  if (stop != end) return Reason::not_a_number;
-  if (error == std::errc::result_out_of_range) return Reason::out_of_range;
-  return std::nullopt;
+  const bool plus = !word.empty() && word.front() == '+';
+  if (plus) word.remove_prefix(1);
+  if (plus && !word.empty() && word.front() == '-') return Reason::not_a_number;
+  return read_whole(word, value, 10);
 }
 
 NumberFault read_number(std::string_view word, std::uint64_t& value) noexcept {

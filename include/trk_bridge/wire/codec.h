@@ -48,7 +48,11 @@ struct Decoded {
 [[nodiscard]] tl::expected<std::string_view, Fault> encode(const CameraConstants&, WireForm, Buffer& buffer) noexcept;
 
 /// The ASCII payload without header and NUL, as it also stands in files. Shortest numbers that read back; a leading
-/// `I<id>` only when the id is not 0.
+/// `I<id>` only when the id is not 0. Of a matrix the first three rows are written, and the fourth is read as 0 0 0 1.
+///
+/// Read are decimal numbers as C's strtod takes them (a leading plus, `1.`, `.5`, exponents; nothing hexadecimal). One
+/// too large for a double is out_of_range, one too small is 0; the words for NaN and infinity are not_finite. Whole
+/// numbers are decimal whatever they begin with (0720 is 720).
 [[nodiscard]] tl::expected<std::string_view, Fault> to_text(const CameraParams&, Buffer& buffer) noexcept;
 [[nodiscard]] tl::expected<std::string_view, Fault> to_text(const CameraConstants&, Buffer& buffer) noexcept;
 [[nodiscard]] tl::expected<CameraParams, Fault> params_from_text(std::string_view text) noexcept;
