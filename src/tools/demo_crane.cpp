@@ -64,6 +64,7 @@ ExitCode run_crane(const CraneOptions& options) {
   std::vector<std::unique_ptr<transport::Sink>> sinks;
   for (const auto& endpoint : endpoints) sinks.push_back(transport::open_sink(endpoint));
 
+  for (const auto& sink : sinks) std::cerr << "demo_crane: writing " << sink->name() << '\n';
   const StopSignals signals;
   FanOut out(std::move(sinks), "demo_crane", std::cerr);
   auto constants = camera::constants_for(crane_constants(), format);

@@ -42,6 +42,7 @@ class DumpCommand {
   ExitCode run() {
     const auto source = transport::open_source(endpoint_of(url_, transport::Direction::read));
     const StopSignals signals(source.get());
+    std::cerr << "trk: reading " << source->name() << '\n';
     options_.flush_each = !is_regular_file(STDOUT_FILENO);
     return dump(*source, options_, std::cout, std::cerr);
   }
@@ -78,6 +79,8 @@ class RelayCommand {
     std::vector<std::unique_ptr<transport::Sink>> sinks;
     for (const auto& endpoint : to) sinks.push_back(transport::open_sink(endpoint));
     const StopSignals signals(source.get());
+    std::cerr << "trk: reading " << source->name() << '\n';
+    for (const auto& sink : sinks) std::cerr << "trk: writing " << sink->name() << '\n';
     return relay(*source, std::move(sinks), options_, std::cerr);
   }
 

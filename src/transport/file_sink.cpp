@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "backends.h"
+#include "snapshot.h"
 #include "trk_bridge/transport/take_file.h"
 
 namespace trk_bridge::transport {
@@ -11,34 +12,35 @@ class FileSink final : public Sink {
   FileSink(const std::string& path, const TimeCode& time_code, bool overwrite) : writer_(path, time_code, overwrite) {}
 
   tl::expected<void, SinkFault> write(const wire::CameraParams& params) override {
-    return counted(writer_.write(params), statistics_.params);
+    return counted(writer_.write(params), counts_.params);
   }
 
   tl::expected<void, SinkFault> write(const wire::CameraConstants& constants) override {
     const bool is_first = !constants_written_;
     std::uint64_t repeated = 0;
-    auto result = counted(writer_.write(constants), is_first ? statistics_.constants : repeated);
+    auto result = counted(writer_.write(constants), is_first ? counts_.constants : repeated);
     constants_written_ = constants_written_ || result;
     return result;
   }
 
   tl::expected<void, SinkFault> close() override {
-    auto result = writer_.close();
-    if (!result) ++statistics_.errors;
-    return result;
+    std::uint64_t closed = 0;
+    return counted(writer_.close(), closed);
   }
 
-  SinkStatistics statistics() const override { return statistics_; }
+  SinkStatistics statistics() const override { return published_.load(); }
   std::string name() const override { return "file " + writer_.path(); }
 
  private:
   tl::expected<void, SinkFault> counted(tl::expected<void, SinkFault> result, std::uint64_t& good) {
-    ++(result ? good : statistics_.errors);
+    ++(result ? good : counts_.errors);
+    published_.store(counts_);
     return result;
   }
 
   TakeWriter writer_;
-  SinkStatistics statistics_;
+  SinkStatistics counts_;
+  Snapshot<SinkStatistics> published_;
   bool constants_written_ = false;
 };
 

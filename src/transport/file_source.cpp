@@ -5,9 +5,8 @@
 #include <system_error>
 #include <utility>
 
-#include <poll.h>
-
 #include "backends.h"
+#include "readable.h"
 #include "snapshot.h"
 #include "stop_event.h"
 #include "trk_bridge/transport/take_file.h"
@@ -20,6 +19,8 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 
 constexpr long double century = 3.2e18L;  // ns
+// poll() passes over it: only time and stop() count.
+constexpr int no_descriptor = -1;
 constexpr nanoseconds one_day = std::chrono::hours(24);
 
 std::int64_t wall_now() {
@@ -109,20 +110,21 @@ class FileSource final : public Source {
 
   /// `sample` once `due` has come, `idle` when `wait` is over before.
   Event wait_until(Clock::time_point due, nanoseconds wait, Clock::time_point now) {
-    const bool endless = wait < nanoseconds::zero();
     // As a difference, for `now + wait` may be past what the clock can tell.
-    const bool in_time = endless || due - now <= wait;
+    const bool in_time = wait < nanoseconds::zero() || due - now <= wait;
     const auto until = in_time ? due : now + wait;
     for (auto time = now; time < until; time = Clock::now()) {
-      const auto left = std::chrono::duration_cast<nanoseconds>(until - time).count();
-      const timespec timeout{static_cast<time_t>(left / 1'000'000'000), static_cast<long>(left % 1'000'000'000)};
-      pollfd stopped{stop_.fd(), POLLIN, 0};
-      if (::ppoll(&stopped, 1, &timeout, nullptr) < 0 && errno != EINTR) {
-        counts_.error = errno;
-        published_.store(counts_);
-        return Event::failed;
+      switch (wait_readable(no_descriptor, stop_, Deadline(until - time))) {
+        case Wake::stopped:
+          return Event::stopped;
+        case Wake::failed:
+          counts_.error = errno;
+          published_.store(counts_);
+          return Event::failed;
+        case Wake::readable:
+        case Wake::timeout:
+          break;
       }
-      if (stop_.is_set()) return Event::stopped;
     }
     return in_time ? Event::sample : Event::idle;
   }

@@ -1,0 +1,127 @@
+#include "record_text.h"
+
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "trk_bridge/wire/format.h"
+#include "vectors.h"
+
+namespace trk_bridge::tools {
+namespace {
+
+using testing::HasSubstr;
+
+std::uint64_t bits(double value) {
+  std::uint64_t result = 0;
+  std::memcpy(&result, &value, sizeof result);
+  return result;
+}
+
+transport::Sample sample_of(const wire::Record& record) {
+  transport::Sample sample;
+  sample.record = record;
+  sample.arrival = 1'700'000'000'123'456'789;
+  sample.sender.kind = transport::SenderKind::ipv4;
+  sample.sender.address = {192, 0, 2, 7};
+  sample.sender.number = 50123;
+  return sample;
+}
+
+rapidjson::Document parsed(std::string_view text) {
+  rapidjson::Document document;
+  document.Parse<rapidjson::kParseFullPrecisionFlag>(text.data(), text.size());
+  EXPECT_FALSE(document.HasParseError()) << text;
+  return document;
+}
+
+TEST(JsonLine, AnyDoubleReadsBackToTheLastBit) {
+  std::mt19937_64 random(20240229);
+  JsonLine line;
+  for (int i = 0; i < 20'000; ++i) {
+    wire::CameraParams params;
+    params.format = wire::euler;
+    const std::uint64_t pattern = random();
+    std::memcpy(&params.fov, &pattern, sizeof pattern);
+    if (!std::isfinite(params.fov)) continue;
+    const auto json = parsed(line.of(sample_of(params)));
+    ASSERT_EQ(bits(json["fov"].GetDouble()), bits(params.fov)) << line.of(sample_of(params));
+  }
+}
+
+TEST(JsonLine, TheDoublesThatAreEasyToGetWrong) {
+  JsonLine line;
+  for (const double value :
+       {-0.0, 0.0, 1e22, 5e-324, std::numeric_limits<double>::max(), 0.1, 1.0 / 3.0, 179.99999, -7.0}) {
+    wire::CameraConstants constants;
+    constants.chip_width = value;
+    EXPECT_EQ(bits(parsed(line.of(sample_of(constants)))["chipWidth"].GetDouble()), bits(value)) << value;
+  }
+}
+
+TEST(JsonLine, HasTheDocumentsNamesForConstants) {
+  const auto cases = test::read_jsonl("field/identified_lp64/constants.jsonl");
+  JsonLine line;
+  for (const auto& one : cases) {
+    const wire::CameraConstants constants = test::constants_of(one["fields"]);
+    const auto json = parsed(line.of(sample_of(constants)));
+    EXPECT_STREQ(json["type"].GetString(), "constants");
+    EXPECT_STREQ(json["sender"].GetString(), "192.0.2.7:50123");
+    EXPECT_EQ(test::constants_of(json), constants);
+    EXPECT_EQ(json.MemberCount(), 14u);
+  }
+}
+
+TEST(JsonLine, TellsArrivalExactly) {
+  JsonLine line;
+  EXPECT_THAT(std::string(line.of(sample_of(wire::CameraParams{}))), HasSubstr("\"arrival\":1700000000.123456789,"));
+}
+
+TEST(JsonLine, WhatIsNotFiniteIsNull) {
+  wire::CameraParams params;
+  params.k1 = std::numeric_limits<double>::infinity();
+  JsonLine line;
+  EXPECT_TRUE(parsed(line.of(sample_of(params)))["k1"].IsNull());
+}
+
+TEST(JsonLine, CountersAreWholeToTheLast) {
+  wire::CameraParams params;
+  params.counter = std::numeric_limits<std::uint64_t>::max();
+  params.id = std::numeric_limits<std::uint32_t>::max();
+  JsonLine line;
+  const auto json = parsed(line.of(sample_of(params)));
+  EXPECT_EQ(json["counter"].GetUint64(), params.counter);
+  EXPECT_EQ(json["id"].GetUint(), params.id);
+}
+
+TEST(PlainLine, TellsUnitsOfTheFormat) {
+  wire::CameraParams params;
+  params.id = 7;
+  params.counter = 1234;
+  params.format = wire::euler | wire::field_of_view | wire::shift_in_pixels | 0x400;
+  params.euler = {1.5, -2, 1.75, 30, -5, 0};
+  params.fov = 42;
+  params.center_x = 0.25;
+  const std::string line = plain_line(sample_of(params));
+  EXPECT_THAT(line, testing::StartsWith("2023-11-14T22:13:20.123456789Z 192.0.2.7:50123 id 7 params 1234 [euler "));
+  EXPECT_THAT(line, HasSubstr("1.5 -2 1.75 m pan tilt roll 30 -5 0 deg field of view 42 deg center 0.25 0 px"));
+  EXPECT_THAT(line, HasSubstr("unknown format bits 0x400"));
+  params.format = 0;
+  EXPECT_THAT(plain_line(sample_of(params)), HasSubstr("image distance 42 mm center 0.25 0 mm"));
+}
+
+TEST(Times, AreExactOnBothSidesOf1970) {
+  EXPECT_EQ(seconds_text(0), "0.000000000");
+  EXPECT_EQ(seconds_text(-1), "-0.000000001");
+  EXPECT_EQ(seconds_text(-1'500'000'000), "-1.500000000");
+  EXPECT_EQ(seconds_text(std::numeric_limits<std::int64_t>::min()), "-9223372036.854775808");
+  EXPECT_EQ(iso_time(0), "1970-01-01T00:00:00.000000000Z");
+  EXPECT_EQ(iso_time(-1), "1969-12-31T23:59:59.999999999Z");
+}
+
+}  // namespace
+}  // namespace trk_bridge::tools

@@ -1,0 +1,186 @@
+// The programs as their users run them.
+#include <csignal>
+#include <cstring>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "temporary_directory.h"
+#include "trk_bridge/transport/take_file.h"
+#include "udp.h"
+#include "vectors.h"
+
+namespace trk_bridge::tools {
+namespace {
+
+using test::Program;
+using testing::HasSubstr;
+
+/// The port in "… udp port N …" of the program's first line.
+std::uint16_t port_told_by(Program& program) {
+  const std::string line = program.err_line().value_or("");
+  const std::size_t at = line.find("udp port ");
+  if (at == std::string::npos) throw std::runtime_error("no port in \"" + line + "\"");
+  return static_cast<std::uint16_t>(std::stoi(line.substr(at + 9)));
+}
+
+/// A line of `trk dump --json` back as a record.
+wire::CameraParams params_of_json(const rapidjson::Value& v) {
+  wire::CameraParams p;
+  p.id = v["id"].GetUint();
+  p.format = v["format"].GetUint();
+  p.counter = v["counter"].GetUint64();
+  if (v.HasMember("matrix")) {
+    for (rapidjson::SizeType i = 0; i < 16; ++i) p.matrix[i] = v["matrix"][i].GetDouble();
+  } else {
+    const auto& e = v["euler"];
+    p.euler = {e["x"].GetDouble(),   e["y"].GetDouble(),    e["z"].GetDouble(),
+               e["pan"].GetDouble(), e["tilt"].GetDouble(), e["roll"].GetDouble()};
+  }
+  p.fov = v["fov"].GetDouble();
+  p.center_x = v["center_x"].GetDouble();
+  p.center_y = v["center_y"].GetDouble();
+  p.k1 = v["k1"].GetDouble();
+  p.k2 = v["k2"].GetDouble();
+  p.focdist = v["focdist"].GetDouble();
+  p.aperture = v["aperture"].GetDouble();
+  return p;
+}
+
+rapidjson::Document parsed(const std::string& text) {
+  rapidjson::Document document;
+  document.Parse<rapidjson::kParseFullPrecisionFlag>(text);
+  if (document.HasParseError()) throw std::runtime_error("not JSON: \"" + text + "\"");
+  return document;
+}
+
+TEST(TrkDump, TellsTheFieldsBinaryDatagramsBitForBit) {
+  Program dump({TRK_TOOL, "dump", "udp://127.0.0.1:0?layout=identified", "--json"});
+  const std::uint16_t port = port_told_by(dump);
+  const test::PlainSocket tracker;
+  for (const auto& line : test::read_jsonl("field/identified_lp64/params.jsonl")) {
+    tracker.send(test::from_hex(line["binary_hex"].GetString()), "127.0.0.1", port);
+    const auto text = dump.out_line();
+    ASSERT_TRUE(text);
+    const auto json = parsed(*text);
+    EXPECT_STREQ(json["type"].GetString(), "params");
+    EXPECT_EQ(json["sender"].GetString(), "127.0.0.1:" + std::to_string(tracker.port()));
+    auto expected = test::params_of(line["fields"]);
+    EXPECT_EQ(params_of_json(json), expected);
+  }
+  dump.signal(SIGTERM);
+  EXPECT_EQ(dump.rest_of_out(), "");
+  EXPECT_THAT(dump.rest_of_err(), HasSubstr("malformed 0"));
+  EXPECT_EQ(dump.wait(), 0);
+}
+
+TEST(TrkDump, EndsOnSigintWithASummary) {
+  Program dump({TRK_TOOL, "dump", "udp://127.0.0.1:0"});
+  const std::uint16_t port = port_told_by(dump);
+  const test::PlainSocket tracker;
+  for (const std::uint64_t counter : {1, 2, 5}) {
+    tracker.send(test::datagram(test::params(counter, 7)), "127.0.0.1", port);
+    ASSERT_TRUE(dump.out_line()) << "each line comes at once, also into a pipe";
+  }
+  tracker.send("rubbish", "127.0.0.1", port);
+  EXPECT_THAT(dump.err_line().value_or(""),
+              HasSubstr("trk: malformed record from 127.0.0.1:" + std::to_string(tracker.port())));
+  dump.signal(SIGINT);
+  dump.rest_of_out();
+  const std::string summary = dump.rest_of_err();
+  EXPECT_THAT(summary, HasSubstr("received 3 (3 parameters, 0 constants), malformed 1"));
+  EXPECT_THAT(summary, HasSubstr("id 7 from 127.0.0.1:" + std::to_string(tracker.port()) + ": 3 accepted, 2 lost"));
+  EXPECT_EQ(dump.wait(), 0);
+}
+
+TEST(TrkDump, AReaderThatHasSeenEnoughIsAnOrdinaryEnd) {
+  Program dump({TRK_TOOL, "dump", "file:" + test::data_path("field/takes/euler.trk") + "?speed=0&loop=1"});
+  ASSERT_TRUE(dump.out_line());
+  dump.close_out();
+  EXPECT_THAT(dump.rest_of_err(), HasSubstr("trk: received "));
+  EXPECT_EQ(dump.wait(), 0);
+}
+
+TEST(TrkDump, AFullDiskIsAFailure) {
+  Program dump(
+      {"/bin/sh", "-c",
+       std::string(TRK_TOOL) + " dump 'file:" + test::data_path("field/takes/euler.trk") + "?speed=0' > /dev/full"});
+  EXPECT_THAT(dump.rest_of_err(), HasSubstr("trk: error: standard output: No space left on device"));
+  EXPECT_EQ(dump.wait(), 1);
+}
+
+TEST(TrkRelay, RecordsATakeThatIsTheSameAgain) {
+  const test::TemporaryDirectory directory;
+  const std::string original = test::data_path("field/takes/euler.trk"), copy = directory / "copy.trk";
+  Program relay({TRK_TOOL, "relay", "file:" + original + "?speed=0", "file:" + copy});
+  EXPECT_THAT(relay.rest_of_err(), HasSubstr("sent to file " + copy + ": 2259 parameters, 1 constants, 0 errors"));
+  EXPECT_EQ(relay.wait(), 0);
+  const auto before = transport::read_take(original), after = transport::read_take(copy);
+  EXPECT_EQ(after.params, before.params);
+  EXPECT_EQ(after.constants, before.constants);
+}
+
+TEST(TrkRelay, ClosesAFileInOrderOnSigterm) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory / "take.trk";
+  Program relay({TRK_TOOL, "relay", "udp://127.0.0.1:0", "file:" + path});
+  const std::uint16_t port = port_told_by(relay);
+  ASSERT_THAT(relay.err_line().value_or(""), HasSubstr(path));
+  const test::PlainSocket tracker;
+  tracker.send(test::datagram(test::constants()), "127.0.0.1", port);
+  for (std::uint64_t counter = 1; counter <= 3; ++counter)
+    tracker.send(test::datagram(test::params(counter)), "127.0.0.1", port);
+  // Whatever is malformed is told after everything before it was written.
+  tracker.send("rubbish", "127.0.0.1", port);
+  ASSERT_THAT(relay.err_line().value_or(""), HasSubstr("malformed"));
+  relay.signal(SIGTERM);
+  const std::string summary = relay.rest_of_err();
+  EXPECT_EQ(relay.wait(), 0) << summary;
+  EXPECT_EQ(transport::read_take(path).params.size(), 3u);
+}
+
+TEST(TrkRelay, ArgumentsThatAreWrongEndItBeforeAnythingIsOpened) {
+  const auto result = [](std::vector<std::string> words) {
+    words.insert(words.begin(), TRK_TOOL);
+    Program program(std::move(words));
+    const std::string text = program.rest_of_err();
+    return std::make_pair(program.wait(), text);
+  };
+  const test::TemporaryDirectory directory;
+  const std::string from = "file:" + test::data_path("field/takes/euler.trk"), to = "file:" + (directory / "to.trk");
+  auto [code, text] = result({"relay", from, to, "--format", "euler upside_down"});
+  EXPECT_EQ(code, 2);
+  EXPECT_THAT(text, testing::AllOf(HasSubstr("upside_down"), HasSubstr("studio_to_camera")));
+  EXPECT_EQ(result({"relay", from}).first, 2);
+  EXPECT_EQ(result({"relay", from, to, "--id", "-1"}).first, 2);
+  EXPECT_EQ(result({"dump", "tcp://127.0.0.1:1"}).first, 2);
+  EXPECT_EQ(result({"dump", from, "--count", "0"}).first, 2);
+  EXPECT_EQ(result({}).first, 2);
+  EXPECT_EQ(result({"--help"}).first, 0);
+  std::tie(code, text) = result({"dump", "file:" + (directory / "absent.trk")});
+  EXPECT_EQ(code, 1);
+  EXPECT_THAT(text, HasSubstr("trk: error: " + (directory / "absent.trk") + ": cannot be read: No such file"));
+}
+
+TEST(DemoCrane, SendsItsMoveToEverySink) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory / "crane.trk";
+  auto source = transport::open_source("udp://127.0.0.1:0");
+  const std::string url = "udp://127.0.0.1:" + std::to_string(test::port_of(*source));
+  Program crane({DEMO_CRANE, url, "file:" + path, "--seconds", "0.2", "--rate", "100", "--id", "5"});
+  transport::Reception reception;
+  ASSERT_EQ(test::next(*source, reception), transport::Event::sample);
+  EXPECT_EQ(std::get<wire::CameraConstants>(reception.sample.record).image_width, 1920);
+  for (std::uint64_t counter = 1; counter <= 20; ++counter) EXPECT_EQ(test::next_counter(*source), counter);
+  const std::string summary = crane.rest_of_err();
+  EXPECT_EQ(crane.wait(), 0) << summary;
+  const auto take = transport::read_take(path);
+  ASSERT_EQ(take.params.size(), 20u);
+  EXPECT_EQ(take.params[0].id, 5u);
+  EXPECT_NEAR(take.params[0].euler.x, 0, 1e-12) << "the arm begins straight ahead";
+}
+
+}  // namespace
+}  // namespace trk_bridge::tools
