@@ -25,21 +25,21 @@ bool ShmLink::look_due(Clock::time_point now, std::chrono::milliseconds period) 
 tl::expected<void, ShmFault> ShmLink::keep(Clock::time_point now) noexcept {
   if (segment_) {
     if (!look_due(now, check_period)) return {};
-    return check(true, now);
+    return check(true, nullptr, now);
   }
   if (absent_ && !look_due(now, attach_period)) return tl::unexpected(*absent_);
-  return attach(now);
+  return attach(nullptr, now);
 }
 
 tl::expected<void, ShmFault> ShmLink::keep_for_writing(Clock::time_point now) noexcept {
-  if (!segment_) return attach(now);
-  return check(look_due(now, check_period), now);
+  if (!segment_) return attach(options_.create, now);
+  return check(look_due(now, check_period), options_.create, now);
 }
 
-tl::expected<void, ShmFault> ShmLink::check(bool look_up, Clock::time_point now) noexcept {
+tl::expected<void, ShmFault> ShmLink::check(bool look_up, const ShmLayout* create, Clock::time_point now) noexcept {
   if (segment_->fate(look_up) != ShmFate::current) {
     segment_.reset();
-    return attach(now);
+    return attach(create, now);
   }
   if (!options_.recreate || !segment_->writable()) return {};
   const std::size_t attachments = segment_->attachments();
@@ -61,11 +61,10 @@ tl::expected<void, ShmFault> ShmLink::check(bool look_up, Clock::time_point now)
   return {};
 }
 
-tl::expected<void, ShmFault> ShmLink::attach(Clock::time_point now) noexcept {
+tl::expected<void, ShmFault> ShmLink::attach(const ShmLayout* create, Clock::time_point now) noexcept {
   looked_ = now;
-  auto segment = options_.create != nullptr
-                     ? ShmSegment::attach_or_create(options_.slot, *options_.create, options_.mode)
-                     : ShmSegment::attach(options_.slot);
+  auto segment = create != nullptr ? ShmSegment::attach_or_create(options_.slot, *create, options_.mode)
+                                   : ShmSegment::attach(options_.slot);
   if (!segment) {
     absent_ = segment.error();
     return tl::unexpected(segment.error());

@@ -28,7 +28,7 @@ ShmLink::Options options_of(const ShmEndpoint& endpoint) {
 class ShmSink final : public Sink {
  public:
   explicit ShmSink(const ShmEndpoint& endpoint) : slot_(endpoint.slot), link_(options_of(endpoint)) {
-    const auto open = link_.keep(ShmLink::Clock::now());
+    const auto open = link_.keep_for_writing(ShmLink::Clock::now());
     if (!open) throw TransportError("shm " + describe(open.error()));
     if (!link_.segment()->writable()) throw TransportError(name() + ": no permission to write to the segment");
   }

@@ -25,7 +25,7 @@ class ShmLink {
  public:
   struct Options {
     int slot = 0;
-    /// Makes a segment of this layout where there is none; null: waits for somebody else's.
+    /// Writing makes a segment of this layout where there is none; null: it waits for somebody else's.
     const ShmLayout* create = nullptr;
     int mode = 0666;        ///< of segments it makes
     bool recreate = false;  ///< trkMemRecreate: a fresh segment whenever all others have left
@@ -38,9 +38,11 @@ class ShmLink {
 
   explicit ShmLink(const Options& options) noexcept : options_(options) {}
 
-  /// Attaches, or attaches anew where needed, when the time has come for a look. A fault says why there is no segment.
+  /// For reading: attaches, or attaches anew, when the time has come for a look; makes nothing. A fault says why there
+  /// is no segment.
   [[nodiscard]] tl::expected<void, ShmFault> keep(Clock::time_point now) noexcept;
-  /// The same before a write: at every call it notices a removed segment, for a write into it would be lost.
+  /// For writing: looks at every call, for a write into a removed segment would be lost, and makes one where there is
+  /// none.
   [[nodiscard]] tl::expected<void, ShmFault> keep_for_writing(Clock::time_point now) noexcept;
 
   /// Null without a segment.
@@ -62,8 +64,8 @@ class ShmLink {
   void close() noexcept { segment_.reset(); }
 
  private:
-  tl::expected<void, ShmFault> attach(Clock::time_point now) noexcept;
-  tl::expected<void, ShmFault> check(bool look_up, Clock::time_point now) noexcept;
+  tl::expected<void, ShmFault> attach(const ShmLayout* create, Clock::time_point now) noexcept;
+  tl::expected<void, ShmFault> check(bool look_up, const ShmLayout* create, Clock::time_point now) noexcept;
   void begin_reading() noexcept;
   bool look_due(Clock::time_point now, std::chrono::milliseconds period) noexcept;
 
