@@ -66,6 +66,14 @@ SocketAddress target_of(const UdpEndpoint& endpoint) {
   return target;
 }
 
+steady_clock::duration period_of(const UdpEndpoint& endpoint) {
+  const double seconds = endpoint.constants_period;
+  if (!(seconds >= 0.0 && seconds <= 86400.0)) {
+    throw TransportError("constants_period = " + std::to_string(seconds) + ": allowed are seconds from 0 to 86400");
+  }
+  return std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(seconds));
+}
+
 class UdpSink final : public Sink {
  public:
   explicit UdpSink(const UdpEndpoint& endpoint)
@@ -73,8 +81,7 @@ class UdpSink final : public Sink {
         socket_(open_socket_to(target_, endpoint)),
         name_("udp to " + to_string(sender_of(target_.storage))),
         form_(form_of(endpoint)),
-        period_(std::chrono::duration_cast<steady_clock::duration>(
-            std::chrono::duration<double>(endpoint.constants_period))) {}
+        period_(period_of(endpoint)) {}
 
   tl::expected<void, SinkFault> write(const wire::CameraParams& params) override;
   tl::expected<void, SinkFault> write(const wire::CameraConstants& constants) override;
