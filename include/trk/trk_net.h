@@ -1,0 +1,50 @@
+/* Camera parameters through the network: UDP datagrams (document, section 7.4). */
+#ifndef TRK_NET_H
+#define TRK_NET_H
+
+#include <trk/trk_struct.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Receives on a UDP port (1 to 65535) of every interface, ASCII and binary of every known sender. */
+TRK_PUBLIC trkError trkNetOpenRead(int localPort, trkHandle* handle);
+
+#ifndef ONLY_READ
+
+/* Sends to a port of a host, given by name or address. With `binary` not 0 as memory images of the structures, which
+ * only receivers that know this machine's layout understand, else as text, which all do. Constants are sent again about
+ * once a second together with parameters, so that receivers which come later learn them. */
+TRK_PUBLIC trkError trkNetOpenWrite(const char* remoteHost, int remotePort, int binary, trkHandle* handle);
+
+#endif
+
+TRK_PUBLIC trkError trkNetClose(trkHandle handle);
+
+/* The newest parameters that arrived since the last call. Does not wait. A datagram that is not sound costs itself
+ * alone: trkInvalidVersion is given once, by a call that has nothing good to give. */
+TRK_PUBLIC trkError trkNetReadParams(trkHandle handle, trkCameraParams* params);
+
+/* Parameters whose counter is `numPassed` past that of the last ones, from those that have arrived (up to 16 are kept).
+ * When they have not: the next ones after; the newest, when the count was begun anew or more than `numTolerated` sets
+ * are in store beyond. Both numbers must not be negative. Does not wait. */
+TRK_PUBLIC trkError trkNetBufReadParams(trkHandle handle, trkCameraParams* params, int numPassed, int numTolerated);
+
+/* The last constants that arrived since the last call. Does not wait. */
+TRK_PUBLIC trkError trkNetReadConstants(trkHandle handle, trkCameraConstants* constants);
+
+#ifndef ONLY_READ
+
+/* trkFailed when the format has unknown options or both trkVertical and trkDiagonal, a number is not finite, or the
+ * system does not send. */
+TRK_PUBLIC trkError trkNetWriteParams(trkHandle handle, const trkCameraParams* params);
+TRK_PUBLIC trkError trkNetWriteConstants(trkHandle handle, const trkCameraConstants* constants);
+
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,38 @@
+// Parameters that have arrived and not been handed out (wire format, "Receiving with a buffer").
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "trk_bridge/wire/record.h"
+
+namespace trk_bridge::c_api {
+
+/// Keeps the newest 16 in order of arrival. Not synchronised, never allocates.
+class ParamsRing {
+ public:
+  static constexpr std::size_t capacity = 16;
+
+  void push(const wire::CameraParams&) noexcept;
+  std::size_t size() const noexcept { return size_; }
+
+  /// The newest, and none of what came before it. None when nothing has arrived since.
+  std::optional<wire::CameraParams> take_newest() noexcept;
+  /// The set `passed` counts after the one taken last, if that can be told and at most `tolerated` are ahead of it;
+  /// both must not be negative.
+  std::optional<wire::CameraParams> take_paced(std::uint64_t passed, std::uint64_t tolerated) noexcept;
+
+ private:
+  const wire::CameraParams& at(std::size_t i) const noexcept { return sets_[(first_ + i) % capacity]; }
+  bool is_ascending() const noexcept;
+  wire::CameraParams take(std::size_t i) noexcept;
+
+  std::array<wire::CameraParams, capacity> sets_{};
+  std::size_t first_ = 0;
+  std::size_t size_ = 0;
+  std::optional<std::uint64_t> last_;
+};
+
+}  // namespace trk_bridge::c_api
