@@ -1,0 +1,89 @@
+// Reading and writing a record allocates nothing.
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "records.h"
+#include "trk_bridge/wire/codec.h"
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+
+void* counted(std::size_t size) {
+  ++allocations;
+  if (void* const block = std::malloc(size == 0 ? 1 : size)) return block;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new[](std::size_t size) { return counted(size); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations;
+  return std::malloc(size == 0 ? 1 : size);
+}
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete[](void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+void operator delete[](void* block, std::size_t) noexcept { std::free(block); }
+
+namespace trk_bridge::wire {
+namespace {
+
+TEST(Allocation, IsCounted) {
+  const std::size_t before = allocations;
+  delete new int;
+  EXPECT_EQ(allocations, before + 1);
+}
+
+std::vector<std::string> samples() {
+  test::RandomRecords random(1);
+  std::vector<std::string> all;
+  for (const std::uint32_t mask : {0x000U, 0x011U}) {
+    all.push_back(test::encoded(random.params(mask), {Encoding::ascii, {}}));
+    for (const Abi abi : {Abi::lp64, Abi::llp64, Abi::i386}) {
+      for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
+        const Layout layout{Generation::identified, abi, order};
+        all.push_back(test::encoded(random.params(mask), {Encoding::binary, layout}));
+        all.push_back(test::encoded(random.constants(), {Encoding::binary, layout}));
+      }
+    }
+  }
+  all.push_back(test::encoded(random.constants(), {Encoding::ascii, {}}));
+  const std::string many_digits = "0." + std::string(1000, '0') + std::string(1000, '7');
+  all.push_back(std::string("DMC01\0PA", 8) + "1 1 2 3 4 5 " + many_digits + " 1e-400 1e308 0 0 0 0 0 1");
+  return all;
+}
+
+TEST(Allocation, NoneWhileReadingAndWriting) {
+  const auto good = samples();
+  auto bad = good;
+  for (std::string& datagram : bad) datagram.resize(datagram.size() / 2);
+  LayoutSense sense;
+  Buffer buffer;
+  std::size_t read = 0;
+  const std::size_t before = allocations;
+  for (const std::string& datagram : good) {
+    const auto decoded = decode(datagram, sense);
+    if (!decoded) continue;
+    ++read;
+    for (const Encoding encoding : {Encoding::ascii, Encoding::binary}) {
+      const WireForm form{encoding, decoded->form.layout};
+      if (!std::visit([&](const auto& record) { return encode(record, form, buffer).has_value(); }, decoded->record)) {
+        --read;
+      }
+    }
+  }
+  std::size_t refused = 0;
+  for (const std::string& datagram : bad) refused += decode(datagram, sense) ? 0U : 1U;
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(read, good.size());
+  EXPECT_EQ(refused, bad.size());
+}
+
+}  // namespace
+}  // namespace trk_bridge::wire
