@@ -6,6 +6,8 @@
 
 #include <Eigen/QR>
 
+#include "trk_bridge/camera/image.h"
+
 namespace trk_bridge::camera {
 namespace {
 
@@ -35,7 +37,8 @@ double residual_of(const Curve& curve, const RadialModel& model) noexcept {
   for (int i = 1; i <= probe_count; ++i) {
     const double distorted = curve.reach * i / probe_count;
     const double error = std::abs(model.distorted(curve.undistorted(distorted)).value - distorted);
-    if (!(error <= worst)) worst = error;
+    if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, error);
   }
   return worst;
 }
@@ -83,12 +86,35 @@ RadialModel fit_rational(const Samples& samples) noexcept {
   return model;
 }
 
-/// Takes `radial` when it has no pole within the range and is nearer than `best`; says whether it had none.
-bool take_if_better(const Curve& curve, const RadialModel& radial, RadialFit& best) noexcept {
-  if (!radial.has_no_pole(1)) return false;
+/// How far the model should go on without a pole, for points that are just outside of the image: a quarter of the
+/// range, unless the lens itself folds before.
+double wanted_range(const Curve& curve) noexcept {
+  constexpr double quarter_more = 1.25;
+  Lens lens;
+  lens.k1 = curve.a1;
+  lens.k2 = curve.a2;
+  const double fold = monotonic_radius(lens);
+  return std::isfinite(fold) ? std::clamp(curve.undistorted(fold), 1.0, quarter_more) : quarter_more;
+}
+
+/// Takes `radial` when it has no pole within `range` and is nearer than `best`; says whether it had none.
+bool take_if_better(const Curve& curve, const RadialModel& radial, double range, RadialFit& best) noexcept {
+  if (!radial.has_no_pole(range)) return false;
   const double residual = residual_of(curve, radial);
   if (residual < best.residual) best = {DistortionModel::rational_polynomial, radial, residual};
   return true;
+}
+
+void improve_by_rationals(const Curve& curve, const Samples& samples, double tolerance, RadialFit& best) noexcept {
+  const RadialModel full = fit_rational<3, 3>(samples);
+  const double range = wanted_range(curve);
+  if (take_if_better(curve, full, range, best)) return;
+  // Where six coefficients are more than the curve asks for, they spend the rest on a pole next to a zero.
+  const std::array<RadialModel, 3> lesser = {fit_rational<3, 2>(samples), fit_rational<2, 3>(samples),
+                                             fit_rational<2, 2>(samples)};
+  for (const RadialModel& radial : lesser) take_if_better(curve, radial, range, best);
+  if (best.residual <= tolerance || take_if_better(curve, full, 1, best)) return;
+  for (const RadialModel& radial : lesser) take_if_better(curve, radial, 1, best);
 }
 
 }  // namespace
@@ -124,12 +150,7 @@ Result<RadialFit> fit_radial(double a1, double a2, double reach, double toleranc
   RadialFit best;
   best.radial = fit_polynomial(samples);
   best.residual = residual_of(curve, best.radial);
-  if (!(best.residual <= tolerance) && !take_if_better(curve, fit_rational<3, 3>(samples), best)) {
-    // Where six coefficients are more than the curve asks for, they spend the rest on a pole next to a zero.
-    take_if_better(curve, fit_rational<3, 2>(samples), best);
-    take_if_better(curve, fit_rational<2, 3>(samples), best);
-    take_if_better(curve, fit_rational<2, 2>(samples), best);
-  }
+  if (!(best.residual <= tolerance)) improve_by_rationals(curve, samples, tolerance, best);
   if (!std::isfinite(best.residual)) return tl::unexpected(CameraReason::no_fit);
   return best;
 }

@@ -295,17 +295,13 @@ TEST(Constants, ThatLeaveNoPictureAreRefused) {
     constants.*field = value;
     return constants;
   };
-  const CameraConstants wrong[] = {with(&CameraConstants::image_width, 0),
-                                   with(&CameraConstants::image_height, -576),
-                                   with(&CameraConstants::blank_left, -1),
-                                   with(&CameraConstants::blank_right, 710),
-                                   with(&CameraConstants::blank_top, 576),
-                                   with(&CameraConstants::blank_bottom, 2147483647),
-                                   with(&CameraConstants::chip_width, 0.0),
-                                   with(&CameraConstants::chip_height, -1.0),
-                                   with(&CameraConstants::chip_width, nan),
-                                   with(&CameraConstants::chip_height, infinity),
-                                   {0, 720, 576, 2147483647, 2147483647, 0, 0, 9.59, 7.19, 0, 0}};
+  const CameraConstants wrong[] = {
+      with(&CameraConstants::image_width, 0),     with(&CameraConstants::image_height, -576),
+      with(&CameraConstants::blank_left, -1),     with(&CameraConstants::blank_right, 710),
+      with(&CameraConstants::blank_top, 576),     with(&CameraConstants::blank_bottom, 2147483647),
+      with(&CameraConstants::chip_width, 0.0),    with(&CameraConstants::chip_height, -1.0),
+      with(&CameraConstants::chip_width, nan),    with(&CameraConstants::chip_height, infinity),
+      with(&CameraConstants::chip_width, 1e-310), {0, 720, 576, 2147483647, 2147483647, 0, 0, 9.59, 7.19, 0, 0}};
   CameraParams params = matrix_params();
   for (const auto& constants : wrong) {
     expect_error(check(constants), CameraReason::bad_constants);
