@@ -23,8 +23,9 @@ int node_main(int argc, char** argv, const char* name) {
     ROS_FATAL_STREAM(name << ": unknown argument '" << arguments[1] << "'; it takes parameters (_name:=value) alone");
     return 2;
   }
+  // Outlives the catch: with the last handle ROS shuts down, and the log with it.
+  const ::ros::NodeHandle node;
   try {
-    const ::ros::NodeHandle node;
     const Node running(node, ::ros::NodeHandle("~"), ::ros::this_node::getName());
     ::ros::spin();
   } catch (const std::exception& error) {

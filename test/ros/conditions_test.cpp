@@ -1,0 +1,185 @@
+// What goes wrong on the way must not reach tf, and must be told.
+#include <sensor_msgs/CameraInfo.h>
+#include <trk_bridge/CameraConstants.h>
+#include <trk_bridge/CameraParams.h>
+
+#include "fixture.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::test {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+class Conditions : public NodeTest {
+ protected:
+  void open(const std::string& options = "") {
+    const auto port = free_udp_port();
+    set("source", udp_url(port) + options);
+    params.emplace(name_space + "/params");
+    constants.emplace(name_space + "/constants");
+    infos.emplace(name_space + "/camera_info");
+    transforms.emplace("/tf", camera);
+    ASSERT_TRUE(starts());
+    ASSERT_TRUE(eventually([this] {
+      return params->connected() && constants->connected() && infos->connected() && transforms->connected();
+    }));
+    tracker.emplace(port);
+  }
+
+  bool counters_are(const std::vector<std::uint64_t>& expected) {
+    const auto counters = [this] {
+      std::vector<std::uint64_t> all;
+      for (const auto& message : params->messages) all.push_back(message.counter);
+      return all;
+    };
+    return eventually([&] { return counters() == expected; });
+  }
+
+  std::optional<Recorder<trk_bridge::CameraParams>> params;
+  std::optional<Recorder<trk_bridge::CameraConstants>> constants;
+  std::optional<Recorder<sensor_msgs::CameraInfo>> infos;
+  std::optional<TransformRecorder> transforms;
+  std::optional<Tracker> tracker;
+};
+
+TEST_F(Conditions, DuplicatesAndLateRecordsAreNeverPublishedRestartsAre) {
+  ASSERT_NO_FATAL_FAILURE(open());
+  for (const std::uint64_t counter : {1000, 1001, 1001, 1004, 1003, 1005, 3, 4, 3}) tracker->send(some_params(counter));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "duplicate", "2"));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "out of order", "1"));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "lost", "1"));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "restarts", "1"));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "received", "6"));
+  EXPECT_TRUE(counters_are({1000, 1001, 1004, 1005, 3, 4}));
+  ASSERT_TRUE(eventually([this] { return transforms->transforms.size() == 6; }));
+  for (std::size_t i = 1; i < 6; ++i) {
+    EXPECT_GT(transforms->transforms[i].header.stamp, transforms->transforms[i - 1].header.stamp);
+  }
+}
+
+TEST_F(Conditions, MalformedDatagramsCostThemselvesAlone) {
+  ASSERT_NO_FATAL_FAILURE(open());
+  tracker->send_bytes("hello");
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "datagrams come but none is trk"));
+  tracker->send(some_params(1));
+  tracker->send_bytes(std::string_view("DMC01\0PA1 1 2 3 4", 17));
+  tracker->send_bytes("");
+  tracker->send_bytes(std::string_view("DMC01\0PA1 nan 2 3 0 0 0 10 0 0 0 0 0 0 2", 40));
+  tracker->send(some_params(2));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "malformed", "4"));
+  EXPECT_TRUE(counters_are({1, 2}));
+  EXPECT_TRUE(eventually([this] { return transforms->transforms.size() == 2; }));
+}
+
+TEST_F(Conditions, WhatIsNoRotationNeverReachesTf) {
+  ASSERT_NO_FATAL_FAILURE(open());
+  auto mirrored = some_params(2);
+  mirrored.format = 0;
+  mirrored.matrix = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  tracker->send(some_params(1));
+  tracker->send(mirrored);
+  tracker->send(some_params(3));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "dropped", "1"));
+  EXPECT_TRUE(counters_are({1, 3}));
+  EXPECT_TRUE(eventually([this] { return transforms->transforms.size() == 2; }));
+}
+
+TEST_F(Conditions, SilenceIsToldAndNothingIsRepeated) {
+  ASSERT_NO_FATAL_FAILURE(open());
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::STALE, "nothing received yet"));
+  tracker->send(some_params(1));
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "nothing new for"));
+  EXPECT_EQ(transforms->transforms.size(), 1u);
+}
+
+TEST_F(Conditions, SendersThatAreNotAllowed) {
+  ASSERT_NO_FATAL_FAILURE(open("?allow=127.0.0.2"));
+  tracker->send(some_params(1));
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "senders that are not allowed"));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "refused senders", "1"));
+  EXPECT_TRUE(transforms->transforms.empty());
+}
+
+TEST_F(Conditions, IdsThatTheCameraDoesNotWant) {
+  set("id", 7);
+  ASSERT_NO_FATAL_FAILURE(open());
+  tracker->send(some_params(1, 3));
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "none with id 7; seen: 3"));
+  tracker->send(some_params(1, 7));
+  EXPECT_TRUE(counters_are({1}));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "unknown ids", "1"));
+}
+
+TEST_F(Conditions, LateConstants) {
+  ASSERT_NO_FATAL_FAILURE(open());
+  auto angle = some_params(1);
+  angle.format |= wire::field_of_view;
+  angle.fov = 50;
+  tracker->send(angle);
+  ASSERT_TRUE(eventually([this] { return transforms->transforms.size() == 1; })) << "the pose needs no constants";
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "withheld", "1"));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "constants known", "no"));
+  EXPECT_TRUE(params->messages.empty());
+  EXPECT_TRUE(infos->messages.empty());
+
+  tracker->send(some_constants());
+  tracker->send(some_constants());
+  angle.counter = 2;
+  tracker->send(angle);
+  EXPECT_TRUE(counters_are({2}));
+  EXPECT_TRUE(eventually([this] { return infos->messages.size() == 1 && constants->messages.size() == 1; }));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "constants known", "received"));
+  // Latched: who comes late learns them, too.
+  Recorder<trk_bridge::CameraConstants> late(name_space + "/constants");
+  EXPECT_TRUE(eventually([&late] { return late.messages.size() == 1; }));
+  EXPECT_EQ(constants->messages.size(), 1u) << "unchanged constants are not published again";
+}
+
+TEST_F(Conditions, ConstantsNeverComeParamsThatNeedNoneAreToldWithoutCameraInfo) {
+  ASSERT_NO_FATAL_FAILURE(open());
+  tracker->send(some_params(1));
+  EXPECT_TRUE(counters_are({1}));
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "no constants yet"));
+  EXPECT_TRUE(infos->messages.empty());
+}
+
+TEST_F(Conditions, ConstantsOfTheParameterServeUntilOthersAreReceived) {
+  set("constants/image_width", 1280);
+  set("constants/image_height", 720);
+  set("constants/chip_width", 9.59);
+  set("constants/chip_height", 5.39);
+  ASSERT_NO_FATAL_FAILURE(open());
+  ASSERT_TRUE(eventually([this] { return constants->messages.size() == 1; })) << "published at the start";
+  tracker->send(some_params(1));
+  ASSERT_TRUE(eventually([this] { return infos->messages.size() == 1; }));
+  EXPECT_EQ(infos->messages[0].width, 1280u);
+  tracker->send(some_constants());
+  tracker->send(some_params(2));
+  ASSERT_TRUE(eventually([this] { return infos->messages.size() == 2; }));
+  EXPECT_EQ(infos->messages[1].width, 1920u);
+  EXPECT_EQ(constants->messages.back().image_width, 1920);
+}
+
+TEST_F(Conditions, DelayIsTakenOffEveryStamp) {
+  set("delay", 5.0);
+  ASSERT_NO_FATAL_FAILURE(open());
+  const auto before = ::ros::Time::now();
+  tracker->send(some_params(1));
+  ASSERT_TRUE(eventually([this] { return transforms->transforms.size() == 1 && params->messages.size() == 1; }));
+  const auto stamp = transforms->transforms[0].header.stamp;
+  EXPECT_GE(stamp, before - ::ros::Duration(5));
+  EXPECT_LE(stamp, ::ros::Time::now() - ::ros::Duration(5));
+  EXPECT_EQ(params->messages[0].header.stamp, stamp);
+}
+
+TEST_F(Conditions, ABurstArrivesWhole) {
+  ASSERT_NO_FATAL_FAILURE(open());
+  for (std::uint64_t counter = 1; counter <= 80; ++counter) tracker->send(some_params(counter));
+  EXPECT_TRUE(eventually([this] { return params->messages.size() == 80 && transforms->transforms.size() == 80; }));
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "received", "80"));
+  EXPECT_EQ(diagnostics.value(status_name(), "lost"), "0");
+}
+
+}  // namespace
+}  // namespace trk_bridge::test

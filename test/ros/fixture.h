@@ -1,0 +1,153 @@
+// What tests of whole nodes need: a node as a process of its own, what it publishes, and places to send to.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gmock/gmock.h>
+#include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "trk_bridge/wire/codec.h"
+
+namespace trk_bridge::test {
+
+/// Long enough for a loaded machine; a condition that is met ends the wait at once.
+inline constexpr std::chrono::seconds deadline{20};
+
+/// Handles ROS callbacks until `condition` is met or the deadline has passed; whether it was met.
+bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds within = deadline);
+
+/// A program that runs beside the test. Its standard error is kept.
+class Process {
+ public:
+  Process(const std::string& program, const std::vector<std::string>& arguments);
+  /// Ends it (SIGKILL) if it still runs.
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void signal(int number);
+  /// Its exit status, or 128 + the signal that ended it; none when it still runs after `within`.
+  std::optional<int> wait(std::chrono::nanoseconds within = deadline);
+  bool running();
+  /// What it has written to standard error so far.
+  std::string said();
+
+ private:
+  pid_t pid_ = -1;
+  int stderr_ = -1;
+  std::string said_;
+  std::optional<int> status_;
+};
+
+/// Messages of one topic, in order of arrival.
+template <typename Message>
+class Recorder {
+ public:
+  explicit Recorder(const std::string& topic) {
+    subscriber_ = ::ros::NodeHandle().subscribe<Message>(
+        topic, 10000, [this](const boost::shared_ptr<const Message>& message) { messages.push_back(*message); });
+  }
+  bool connected() const { return subscriber_.getNumPublishers() > 0; }
+
+  std::vector<Message> messages;
+
+ private:
+  ::ros::Subscriber subscriber_;
+};
+
+/// Transforms to one child frame, of /tf or /tf_static.
+class TransformRecorder {
+ public:
+  TransformRecorder(const std::string& topic, std::string child);
+  bool connected() const { return subscriber_.getNumPublishers() > 0; }
+
+  std::vector<geometry_msgs::TransformStamped> transforms;
+
+ private:
+  ::ros::Subscriber subscriber_;
+};
+
+/// The newest status of every name on /diagnostics.
+class DiagnosticsRecorder {
+ public:
+  DiagnosticsRecorder();
+  const diagnostic_msgs::DiagnosticStatus* find(const std::string& name) const;
+  /// "" when there is no such status or key.
+  std::string value(const std::string& name, const std::string& key) const;
+  /// Waits until the value is this.
+  ::testing::AssertionResult becomes(const std::string& name, const std::string& key, const std::string& expected);
+  /// Waits until the summary has this level and contains `text`.
+  ::testing::AssertionResult tells(const std::string& name, int level, const std::string& text);
+
+ private:
+  std::map<std::string, diagnostic_msgs::DiagnosticStatus> newest_;
+  ::ros::Subscriber subscriber_;
+};
+
+/// A UDP socket that sends to one port of 127.0.0.1.
+class Tracker {
+ public:
+  explicit Tracker(std::uint16_t port);
+  ~Tracker();
+  Tracker(const Tracker&) = delete;
+  Tracker& operator=(const Tracker&) = delete;
+
+  void send_bytes(std::string_view datagram);
+  template <typename RecordType>
+  void send(const RecordType& record, wire::WireForm form = {}) {
+    wire::Buffer buffer;
+    send_bytes(wire::encode(record, form, buffer).value());
+  }
+
+ private:
+  int socket_ = -1;
+};
+
+/// A port of 127.0.0.1 that nobody is bound to.
+std::uint16_t free_udp_port();
+std::string udp_url(std::uint16_t port);
+/// A slot without file and segment.
+int free_slot();
+
+/// Picture and chip without blanks.
+wire::CameraConstants some_constants(std::uint32_t id = 0);
+/// Euler and image distance: needs no constants.
+wire::CameraParams some_params(std::uint64_t counter, std::uint32_t id = 0);
+
+/// One camera's node in a namespace of its own, made for one test.
+class NodeTest : public ::testing::Test {
+ protected:
+  NodeTest();
+
+  /// Sets a private parameter.
+  template <typename T>
+  void set(const std::string& key, const T& value) {
+    ::ros::param::set(node_name + "/" + key, value);
+  }
+  void start();
+  /// Starts it and waits until it has told the state of camera `told_of`.
+  ::testing::AssertionResult starts(const std::string& told_of);
+  ::testing::AssertionResult starts() { return starts(camera); }
+  std::string status_name(const std::string& of_camera) const { return node_name.substr(1) + ": " + of_camera; }
+  std::string status_name() const { return status_name(camera); }
+
+  std::string camera;      ///< its name, unique in this run
+  std::string name_space;  ///< "/" + camera
+  std::string node_name;
+  DiagnosticsRecorder diagnostics;
+  std::unique_ptr<Process> node;
+};
+
+}  // namespace trk_bridge::test
