@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
 #include "bytes.h"
@@ -69,11 +70,13 @@ bool transform_fits(std::string_view image, Layout layout, std::uint32_t format)
   }
   if (!has(format, euler)) return is_affine(matrix);
   if (is_rigid(matrix)) return false;
-  for (std::size_t i = 0; i < 6; ++i) {
+  constexpr std::size_t euler_numbers = 6;
+  for (std::size_t i = 0; i < euler_numbers; ++i) {
     if (!is_plausible(matrix[i])) return false;
   }
   // Focus and aperture stay out: there are many ways to say infinity.
-  for (std::size_t i = 0; i < 5; ++i) {
+  constexpr std::size_t lens_numbers_before_focus = 5;
+  for (std::size_t i = 0; i < lens_numbers_before_focus; ++i) {
     if (!is_plausible(load_double(image.data() + shape.lens + i * sizeof(double), layout.byte_order))) return false;
   }
   return true;
@@ -114,6 +117,7 @@ Reading judge(std::string_view image, Layout layout, std::optional<Generation> k
   const bool likely = layout.generation == likely_generation(first, second);
   const bool same_order = seen && seen->byte_order == layout.byte_order;
   const bool little = layout.byte_order == ByteOrder::little;
+  // Each outweighs all those behind it.
   r.weight = (r.fits ? 64U : 0U) + (r.known ? 32U : 0U) + r.words * 8U + (likely ? 4U : 0U) + (same_order ? 2U : 0U) +
              (little ? 1U : 0U);
   return r;
