@@ -8,7 +8,7 @@
 #include <ros/publisher.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include "transport/snapshot.h"
+#include "snapshot.h"
 #include "trk_bridge/ros/camera_pipeline.h"
 #include "trk_bridge/ros/diagnostics.h"
 #include "trk_bridge/ros/trk_to_ros_parameters.h"

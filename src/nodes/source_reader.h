@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "camera_output.h"
-#include "transport/snapshot.h"
+#include "snapshot.h"
 #include "trk_bridge/ros/diagnostics.h"
 #include "trk_bridge/transport/source.h"
 
