@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -18,7 +19,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 
-constexpr long double century = 3.2e18L;  // ns
+constexpr double highest_rate = 1e6;
+// Nanoseconds since 1970 end in 2262, and a take goes on for a while.
+constexpr std::int64_t latest_date = 8'836'000'000;  // s, in 2250
+constexpr long double century = 3.2e18L;             // ns
 // poll() passes over it: only time and stop() count.
 constexpr int no_descriptor = -1;
 constexpr nanoseconds one_day = std::chrono::hours(24);
@@ -179,9 +183,15 @@ std::unique_ptr<Source> open_file_source(const FileEndpoint& endpoint, double fi
   const auto refuse = [&endpoint](const std::string& reason) {
     throw TransportError("file " + endpoint.path + ": " + reason);
   };
-  if (!std::isfinite(rate) || rate <= 0) refuse("rate=" + std::to_string(rate) + ": fields a second, more than 0");
+  if (!(rate > 0 && rate <= highest_rate)) {
+    refuse("rate=" + std::to_string(rate) + ": fields a second, more than 0 and at most " +
+           std::to_string(highest_rate));
+  }
   if (!std::isfinite(endpoint.speed) || endpoint.speed < 0) {
     refuse("speed=" + std::to_string(endpoint.speed) + ": 0 (as fast as possible) or more");
+  }
+  if (endpoint.date && std::abs(*endpoint.date) > latest_date) {
+    refuse("date: " + std::to_string(*endpoint.date) + " s are out of reach; days up to the year 2250 are not");
   }
   Take take = read_take(endpoint.path);
   if (const auto first = nanoseconds_of(take.time_code, rate, 0); !first && endpoint.time == FileTime::timecode) {

@@ -202,6 +202,10 @@ TEST_F(PlayFile, WhatCannotBePlayedIsRefusedAtOpening) {
   auto endpoint = take_of(1);
   EXPECT_THAT(error_of(endpoint, 24.0), HasSubstr("10:20:30:12:1"));
   EXPECT_THAT(error_of(endpoint, 0.0), HasSubstr("rate"));
+  EXPECT_THAT(error_of(endpoint, 1e300), HasSubstr("rate"));
+  endpoint.date = 253'402'214'400;  // 9999-12-31
+  EXPECT_THAT(error_of(endpoint), HasSubstr("date"));
+  endpoint.date.reset();
   endpoint.speed = -1;
   EXPECT_THAT(error_of(endpoint), HasSubstr("speed"));
   endpoint.path += "x";
