@@ -1,0 +1,30 @@
+// The launch files, started by the test's own one with a take that plays for ever.
+#include <trk_bridge/CameraParams.h>
+
+#include "fixture.h"
+
+namespace trk_bridge::test {
+namespace {
+
+class Launched : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Launched, PublishesInTheNamespaceOfItsCamera) {
+  const std::string camera = GetParam();
+  Recorder<trk_bridge::CameraParams> params("/" + camera + "/params");
+  TransformRecorder transforms("/tf", camera);
+  TransformRecorder statics("/tf_static", camera + "_optical");
+  ASSERT_TRUE(eventually(
+      [&] { return params.messages.size() > 2 && transforms.transforms.size() > 2 && !statics.transforms.empty(); }));
+  EXPECT_EQ(params.messages.front().header.frame_id, "stage");
+  EXPECT_EQ(transforms.transforms.front().header.frame_id, "stage");
+  EXPECT_EQ(statics.transforms.front().header.frame_id, camera);
+  for (std::size_t i = 1; i < transforms.transforms.size(); ++i) {
+    EXPECT_GT(transforms.transforms[i].header.stamp, transforms.transforms[i - 1].header.stamp);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(As, Launched, ::testing::Values("launched_node", "launched_nodelet"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace trk_bridge::test
