@@ -95,7 +95,7 @@ class JsonRecord {
 
   void text(const char* key, const std::string& content) {
     writer_.Key(key);
-    writer_.String(content.data(), static_cast<rapidjson::SizeType>(content.size()));
+    writer_.String(content);
   }
 
   template <typename Integer>
