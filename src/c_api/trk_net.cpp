@@ -26,10 +26,14 @@ class Receiver {
  public:
   explicit Receiver(std::unique_ptr<transport::Source> source) : source_(std::move(source)) {}
 
-  trkError read(trkCameraParams& into) { return give(drain(), ring_.take_newest(), into); }
+  trkError read(trkCameraParams& into) {
+    const bool works = drain();
+    return give(works, ring_.take_newest(), into);
+  }
 
   trkError read_paced(trkCameraParams& into, unsigned passed, unsigned tolerated) {
-    return give(drain(), ring_.take_paced(passed, tolerated), into);
+    const bool works = drain();
+    return give(works, ring_.take_paced(passed, tolerated), into);
   }
 
   trkError read(trkCameraConstants& into) {
@@ -131,6 +135,7 @@ trkError trkNetOpenWrite(const char* remoteHost, int remotePort, int binary, trk
     endpoint.host = remoteHost;
     endpoint.port = static_cast<std::uint16_t>(remotePort);
     endpoint.binary = binary != 0;
+    endpoint.resend_equal = true;
     endpoint.layout.generation = wire::Generation::document;
     *handle = handles<Sender>().open(transport::open_sink(endpoint));
     return trkOK;

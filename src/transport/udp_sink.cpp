@@ -81,6 +81,7 @@ class UdpSink final : public Sink {
         socket_(open_socket_to(target_, endpoint)),
         name_("udp to " + to_string(sender_of(target_.storage))),
         form_(form_of(endpoint)),
+        resend_equal_(endpoint.resend_equal),
         period_(period_of(endpoint)) {}
 
   tl::expected<void, SinkFault> write(const wire::CameraParams& params) override;
@@ -111,6 +112,7 @@ class UdpSink final : public Sink {
   Descriptor socket_;
   const std::string name_;
   const wire::WireForm form_;
+  const bool resend_equal_;
   const steady_clock::duration period_;
   std::unordered_map<std::uint32_t, Remembered> remembered_;  // by id
   wire::Buffer buffer_{};
@@ -174,7 +176,8 @@ tl::expected<void, SinkFault> UdpSink::write(const wire::CameraConstants& consta
   }
   const auto [found, is_new] = remembered_.try_emplace(constants.id, Remembered{constants});
   Remembered& remembered = found->second;
-  if (!is_new && !remembered.pending && remembered.constants == constants) return {};
+  const bool known = !is_new && !remembered.pending && remembered.constants == constants;
+  if (known && !resend_equal_) return {};
   remembered.constants = constants;
   remembered.pending = true;
   return send_remembered(remembered, steady_clock::now());

@@ -41,6 +41,7 @@ struct UdpEndpoint {
   bool binary = false;     ///< `binary=1`
   std::optional<int> ttl;  ///< `ttl=N`, 0..255 (unicast and broadcast 1..255): how many routers it may pass, less one
   double constants_period = 1.0;  ///< `constants_period=SECONDS`, to 86400; 0: constants are sent only when they change
+  bool resend_equal = false;      ///< no option of URLs: constants are sent at every write, not only when they change
 };
 
 /// `shm:SLOT[?options]`, slots 0..61.
