@@ -18,7 +18,7 @@ generate_messages(DEPENDENCIES std_msgs)
 
 catkin_package(
   INCLUDE_DIRS include
-  LIBRARIES trk trk_bridge_camera trk_bridge_ros trk_bridge_transport trk_bridge_wire
+  LIBRARIES trk trk_bridge_camera trk_bridge_presets trk_bridge_ros trk_bridge_transport trk_bridge_wire
   CATKIN_DEPENDS
     diagnostic_msgs
     diagnostic_updater
@@ -39,6 +39,7 @@ set(TRK_BRIDGE_BIN_DIR ${CATKIN_GLOBAL_BIN_DESTINATION})
 # Where rosrun looks; catkin_package() puts the programs of the devel space there, too.
 set(TRK_BRIDGE_TOOL_DIR ${CATKIN_PACKAGE_BIN_DESTINATION})
 set(TRK_BRIDGE_INCLUDE_DIR ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
+set(TRK_BRIDGE_SHARE_DIR ${CATKIN_PACKAGE_SHARE_DESTINATION})
 
-install(DIRECTORY config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(DIRECTORY config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} PATTERN presets.yaml EXCLUDE)
 install(FILES nodelets.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -1,8 +1,9 @@
 #include "trk_bridge/ros/parameter_reader.h"
 
 #include <algorithm>
-#include <numeric>
 #include <sstream>
+
+#include "trk_bridge/wire/nearest.h"
 
 namespace trk_bridge::ros {
 namespace {
@@ -18,21 +19,6 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return text;
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
 std::string shown(const XmlRpcValue& value) {
   std::ostringstream out;
   if (value.getType() == XmlRpcValue::TypeString) {
@@ -46,12 +32,6 @@ std::string shown(const XmlRpcValue& value) {
 }  // namespace
 
 ParameterError::ParameterError(const std::vector<std::string>& faults) : std::runtime_error(joined(faults, "\n")) {}
-
-const std::string& nearest(std::string_view word, const std::vector<std::string>& candidates) {
-  return *std::min_element(candidates.begin(), candidates.end(), [word](const auto& a, const auto& b) {
-    return edit_distance(word, a) < edit_distance(word, b);
-  });
-}
 
 ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string path, std::vector<std::string>& faults)
     : tree_(tree), path_(std::move(path)), faults_(faults) {
@@ -132,7 +112,7 @@ void ParameterReader::refuse_unknown() {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     std::sort(known_.begin(), known_.end());
     faults_.push_back(path_ + key + " = " + shown(tree_[key]) + ": no such parameter, nearest is " +
-                      nearest(key, known_) + "; known are " + joined(known_, ", "));
+                      wire::nearest(key, known_) + "; known are " + joined(known_, ", "));
   }
 }
 

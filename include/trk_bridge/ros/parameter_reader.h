@@ -52,7 +52,4 @@ class ParameterReader {
   std::vector<std::string> known_;
 };
 
-/// The candidate with the smallest edit distance to `word`; `candidates` must not be empty.
-const std::string& nearest(std::string_view word, const std::vector<std::string>& candidates);
-
 }  // namespace trk_bridge::ros

@@ -236,13 +236,5 @@ TEST(Read, NoParametersAtAllMissTheSource) {
 
 TEST(Read, ATreeThatIsNoMapIsRefused) { EXPECT_THAT(message_of(XmlRpcValue(7)), HasSubstr("must be a map")); }
 
-TEST(Nearest, IsTheSmallestEditDistance) {
-  const std::vector<std::string> words{"delay", "source", "stamp", "format"};
-  EXPECT_EQ(nearest("dely", words), "delay");
-  EXPECT_EQ(nearest("sorce", words), "source");
-  EXPECT_EQ(nearest("fromat", words), "format");
-  EXPECT_EQ(nearest("stmp", words), "stamp");
-}
-
 }  // namespace
 }  // namespace trk_bridge::ros
