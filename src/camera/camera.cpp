@@ -5,15 +5,6 @@
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::camera {
-namespace {
-
-/// The same as wire::check_writable, which explains itself in a string and so allocates.
-bool writable(std::uint32_t format) noexcept {
-  return (format & ~wire::known_format_bits) == 0 && !wire::has(format, wire::vertical | wire::diagonal);
-}
-
-}  // namespace
-
 std::string describe(CameraReason reason) {
   switch (reason) {
     case CameraReason::not_finite:
@@ -55,7 +46,7 @@ Result<Camera> decode(const wire::CameraParams& params, const wire::CameraConsta
 
 Result<wire::CameraParams> encode(const Camera& camera, std::uint32_t format,
                                   const wire::CameraConstants* constants) noexcept {
-  if (!writable(format)) return tl::unexpected(CameraReason::bad_format);
+  if (!wire::is_writable(format)) return tl::unexpected(CameraReason::bad_format);
   wire::CameraParams params;
   params.format = format;
   if (const auto pose = encode_pose(camera.pose, params); !pose) return tl::unexpected(pose.error());
@@ -66,7 +57,7 @@ Result<wire::CameraParams> encode(const Camera& camera, std::uint32_t format,
 Result<wire::CameraParams> reexpress(const wire::CameraParams& params, std::uint32_t format,
                                      const wire::CameraConstants* incoming,
                                      const wire::CameraConstants* outgoing) noexcept {
-  if (!writable(format)) return tl::unexpected(CameraReason::bad_format);
+  if (!wire::is_writable(format)) return tl::unexpected(CameraReason::bad_format);
   wire::CameraParams told;
   told.id = params.id;
   told.counter = params.counter;

@@ -37,8 +37,12 @@ std::string format_to_words(std::uint32_t mask);
 /// Of two opposite words the last one counts. The error names the word that is not known and lists those that are.
 tl::expected<std::uint32_t, std::string> format_from_words(std::string_view words);
 
-/// Whether a record may be *made* in this format: no unknown bits, not vertical and diagonal at once. The error says
-/// which. (Records that arrived in such a format are read and passed on.)
+/// Whether a record may be *made* in this format: no unknown bits, not vertical and diagonal at once. (Records that
+/// arrived in another format are read and passed on.)
+constexpr bool is_writable(std::uint32_t mask) noexcept {
+  return (mask & ~known_format_bits) == 0 && !has(mask, vertical | diagonal);
+}
+/// The same with an error that says what is wrong.
 tl::expected<void, std::string> check_writable(std::uint32_t mask);
 
 }  // namespace trk_bridge::wire
