@@ -21,6 +21,12 @@ std::uint32_t format_of(const std::string& words) {
   return *format;
 }
 
+presets::Preset preset_of(const std::string& name) {
+  auto preset = presets::find_preset(name);
+  if (!preset) throw CLI::ValidationError("--preset: " + preset.error());
+  return *std::move(preset);
+}
+
 ExitCode run_program(CLI::App& app, int argc, const char* const* argv, const std::function<ExitCode()>& run) {
   try {
     app.parse(argc, argv);

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "exit_code.h"
+#include "trk_bridge/presets/presets.h"
 #include "trk_bridge/transport/endpoint.h"
 
 namespace trk_bridge::tools {
@@ -16,10 +17,12 @@ namespace trk_bridge::tools {
 inline constexpr const char* endpoints_help =
     "An endpoint is udp://[HOST]:PORT, shm:SLOT or file:PATH, with options behind a question mark.";
 
-/// Both throw CLI::ValidationError with the parser's text.
+/// All throw CLI::ValidationError with the parser's text.
 transport::Endpoint endpoint_of(const std::string& url, transport::Direction);
 /// A format that records may be made in.
 std::uint32_t format_of(const std::string& words);
+/// The preset of that name.
+presets::Preset preset_of(const std::string& name);
 
 /// Parses, runs, and turns what is thrown into one line on standard error and an exit code: exit_usage for CLI's
 /// errors, exit_failed for all others.

@@ -12,8 +12,10 @@
 #include "arguments.h"
 #include "dump.h"
 #include "exit_code.h"
+#include "preset_list.h"
 #include "relay.h"
 #include "stop_signals.h"
+#include "trk_bridge/presets/presets.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 
@@ -61,16 +63,20 @@ class RelayCommand {
     command_->footer(endpoints_help);
     command_->add_option("SOURCE", source_url_, "Where records come from")->required();
     command_->add_option("SINK", sink_urls_, "Where they go")->required()->expected(1, -1);
-    command_
-        ->add_option("--format", format_words_,
-                     "Format words, in quotes, in which parameters are passed on; default: as they come")
-        ->type_name("WORDS");
+    auto* format = command_
+                       ->add_option("--format", format_words_,
+                                    "Format words, in quotes, in which parameters are passed on; default: as they come")
+                       ->type_name("WORDS");
+    command_->add_option("--preset", preset_name_, "The receiver, in place of format words: see trk presets")
+        ->type_name("NAME")
+        ->excludes(format);
     command_->add_option("--id", options_.id, "Camera number in place of the one that came")->type_name("N");
   }
   bool is_asked_for() const { return command_->parsed(); }
 
   ExitCode run() {
     if (format_words_) options_.format = format_of(*format_words_);
+    if (preset_name_) follow(preset_of(*preset_name_));
     const auto from = endpoint_of(source_url_, transport::Direction::read);
     std::vector<transport::Endpoint> to;
     for (const auto& url : sink_urls_) to.push_back(endpoint_of(url, transport::Direction::write));
@@ -85,11 +91,42 @@ class RelayCommand {
   }
 
  private:
+  void follow(const presets::Preset& preset) {
+    options_.format = preset.format;
+    if (preset.sends_id) return;
+    if (options_.id.value_or(0) != 0) {
+      throw CLI::ValidationError("--id " + std::to_string(*options_.id) + ": the preset " + preset.name +
+                                 " sends no id; only 0 is allowed");
+    }
+    options_.id = 0;
+  }
+
   CLI::App* command_;
   std::string source_url_;
   std::vector<std::string> sink_urls_;
   std::optional<std::string> format_words_;
+  std::optional<std::string> preset_name_;
   RelayOptions options_;
+};
+
+class PresetsCommand {
+ public:
+  explicit PresetsCommand(CLI::App& app)
+      : command_(app.add_subcommand("presets", "List the receivers that are known by name")) {
+    command_->add_flag("--json", as_json_, "A JSON object a line");
+  }
+  bool is_asked_for() const { return command_->parsed(); }
+
+  ExitCode run() const {
+    (as_json_ ? list_presets_as_json : list_presets)(presets::presets(), std::cout);
+    if (std::cout.flush()) return exit_good;
+    std::cerr << "trk: error: the list could not be written to standard output\n";
+    return exit_failed;
+  }
+
+ private:
+  CLI::App* command_;
+  bool as_json_ = false;
 };
 
 }  // namespace
@@ -102,6 +139,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   DumpCommand dump_command(app);
   RelayCommand relay_command(app);
-  return run_program(app, argc, argv,
-                     [&] { return dump_command.is_asked_for() ? dump_command.run() : relay_command.run(); });
+  PresetsCommand presets_command(app);
+  return run_program(app, argc, argv, [&] {
+    if (dump_command.is_asked_for()) return dump_command.run();
+    if (relay_command.is_asked_for()) return relay_command.run();
+    return presets_command.run();
+  });
 }

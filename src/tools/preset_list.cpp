@@ -1,0 +1,39 @@
+#include "preset_list.h"
+
+#include <ostream>
+
+#include <rapidjson/stringbuffer.h>
+#include <rapidjson/writer.h>
+
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::tools {
+
+void list_presets(const std::vector<presets::Preset>& known, std::ostream& out) {
+  for (const auto& preset : known) {
+    out << preset.name << '\n' << "  sends   " << wire::format_to_words(preset.format);
+    out << (preset.sends_id ? "" : "; never an id") << '\n' << "  quirks  " << preset.quirks << '\n';
+  }
+}
+
+void list_presets_as_json(const std::vector<presets::Preset>& known, std::ostream& out) {
+  for (const auto& preset : known) {
+    rapidjson::StringBuffer line;
+    rapidjson::Writer<rapidjson::StringBuffer> writer(line);
+    writer.StartObject();
+    writer.Key("name");
+    writer.String(preset.name);
+    writer.Key("format");
+    writer.Uint(preset.format);
+    writer.Key("format_words");
+    writer.String(wire::format_to_words(preset.format));
+    writer.Key("sends_id");
+    writer.Bool(preset.sends_id);
+    writer.Key("quirks");
+    writer.String(preset.quirks);
+    writer.EndObject();
+    out << line.GetString() << '\n';
+  }
+}
+
+}  // namespace trk_bridge::tools
