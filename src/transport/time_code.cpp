@@ -68,4 +68,22 @@ tl::expected<std::int64_t, std::string> nanoseconds_of(const TimeCode& code, dou
   return static_cast<std::int64_t>(std::llround(fields * 1e9L / static_cast<long double>(field_rate)));
 }
 
+tl::expected<TimeCode, std::string> time_code_at(std::int64_t nanoseconds, double field_rate) {
+  const auto refuse = [&](const std::string& why) {
+    return tl::unexpected("no time code tells " + std::to_string(nanoseconds) + " ns after midnight at " +
+                          std::to_string(field_rate) + " fields a second: " + why);
+  };
+  if (nanoseconds < 0) return refuse("it is before midnight");
+  if (!(field_rate >= 1 && field_rate <= 1e6)) return refuse("rates are 1 to 1000000 Hz");
+  const std::int64_t nominal = std::llround(field_rate);
+  const long double seconds_exact = static_cast<long double>(nanoseconds) / 1e9L;
+  const std::int64_t fields = std::llround(seconds_exact * static_cast<long double>(field_rate));
+  const std::int64_t seconds = fields / nominal % (24 * 60 * 60);
+  const std::int64_t frames = fields % nominal / 2;
+  if (frames > parts[3].most) return refuse("frame " + std::to_string(frames) + " has more than two digits");
+  const auto part = [](std::int64_t value) { return static_cast<int>(value); };
+  return TimeCode{part(seconds / 3600), part(seconds / 60 % 60), part(seconds % 60), part(frames),
+                  part(fields % nominal % 2 + 1)};
+}
+
 }  // namespace trk_bridge::transport

@@ -11,6 +11,7 @@
 
 #include <tl/expected.hpp>
 
+#include "trk_bridge/transport/part_file.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/wire/codec.h"
 
@@ -38,6 +39,10 @@ std::string to_string(const TimeCode&);
 /// field that a second of this rate does not have.
 tl::expected<std::int64_t, std::string> nanoseconds_of(const TimeCode&, double field_rate, std::uint64_t index);
 
+/// The way back: the code of the field nearest to a time after midnight (ns, not negative); after 23:59:59 the day's
+/// codes begin anew. An error for rates outside of 1 to 1e6 Hz and for a frame above 99, which a code cannot tell.
+tl::expected<TimeCode, std::string> time_code_at(std::int64_t nanoseconds, double field_rate);
+
 struct Take {
   TimeCode time_code;
   wire::CameraConstants constants;
@@ -53,9 +58,7 @@ Take read_take(const std::string& path);
 /// allocate.
 class TakeWriter {
  public:
-  /// Creates `path`.part. Throws TransportError: without `overwrite`, when a file of the final name exists, or a
-  /// `.part` that holds what a dead writer left; always, when another writer is at work on it; else the system's
-  /// reason.
+  /// Throws TransportError, as PartFile does.
   TakeWriter(std::string path, const TimeCode&, bool overwrite);
   /// As close(), but cannot say how it went.
   ~TakeWriter();
@@ -71,16 +74,15 @@ class TakeWriter {
   /// and nothing stays. When the system refuses, `PATH.part` stays as it is. Closing again does nothing.
   [[nodiscard]] tl::expected<void, SinkFault> close();
 
-  const std::string& path() const noexcept { return path_; }
+  /// Ends it without a trace, for a take that turned out to be of no use.
+  void discard() noexcept { file_.discard(); }
+
+  const std::string& path() const noexcept { return file_.path(); }
 
  private:
   tl::expected<void, SinkFault> append(std::string_view line);
-  tl::expected<void, SinkFault> publish();
 
-  std::string path_;
-  std::string part_;
-  bool overwrite_;
-  int fd_ = -1;
+  PartFile file_;
   std::int64_t size_ = 0;  // of the whole lines; what lies behind is what is left of a failed write
   std::optional<wire::CameraConstants> constants_;
   bool constants_count_ = false;  // no others have come since
