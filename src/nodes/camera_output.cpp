@@ -8,7 +8,7 @@ namespace trk_bridge::nodes {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-CameraOutput::CameraOutput(::ros::NodeHandle node, const trk_bridge::ros::CameraParameters& parameters,
+CameraOutput::CameraOutput(::ros::NodeHandle node, const trk_bridge::ros1::CameraParameters& parameters,
                            double field_rate, int queue_size)
     : pipeline_(parameters, field_rate), field_rate_(field_rate) {
   const auto queue = static_cast<std::uint32_t>(queue_size);
@@ -28,15 +28,16 @@ void CameraOutput::take(const transport::Sample& sample, std::int64_t now) {
   statistics_.store(pipeline_.statistics());
 }
 
-void CameraOutput::describe(trk_bridge::ros::CameraReport report, diagnostic_updater::DiagnosticStatusWrapper& status) {
+void CameraOutput::describe(trk_bridge::ros1::CameraReport report,
+                            diagnostic_updater::DiagnosticStatusWrapper& status) {
   report.camera = statistics_.load();
-  const auto found = trk_bridge::ros::findings(report, last_report_, parameters(), field_rate_);
-  trk_bridge::ros::fill(status, found, report, last_report_);
+  const auto found = trk_bridge::ros1::findings(report, last_report_, parameters(), field_rate_);
+  trk_bridge::ros1::fill(status, found, report, last_report_);
   log_new(found);
   last_report_ = std::move(report);
 }
 
-void CameraOutput::log_new(const std::vector<trk_bridge::ros::Finding>& found) {
+void CameraOutput::log_new(const std::vector<trk_bridge::ros1::Finding>& found) {
   for (const auto& finding : found) {
     if (std::find(logged_.begin(), logged_.end(), finding.condition) != logged_.end()) continue;
     logged_.push_back(finding.condition);

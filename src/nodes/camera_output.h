@@ -20,7 +20,7 @@ class CameraOutput {
  public:
   /// Advertises `params`, `constants` and `camera_info` in the namespace of `node`, and publishes the parameter's
   /// constants where there are any.
-  CameraOutput(::ros::NodeHandle node, const trk_bridge::ros::CameraParameters&, double field_rate, int queue_size);
+  CameraOutput(::ros::NodeHandle node, const trk_bridge::ros1::CameraParameters&, double field_rate, int queue_size);
 
   bool wants(const wire::Record& record) const noexcept { return pipeline_.wants(record); }
   /// Publishes what comes of a sample before it returns. `now` is the steady clock's time of receipt, ns.
@@ -28,20 +28,20 @@ class CameraOutput {
 
   /// Fills a status. `report` is of this moment but for the camera's part, which is added here. Findings of a kind that
   /// was not met before go to the log, too.
-  void describe(trk_bridge::ros::CameraReport report, diagnostic_updater::DiagnosticStatusWrapper& status);
+  void describe(trk_bridge::ros1::CameraReport report, diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  const trk_bridge::ros::CameraParameters& parameters() const noexcept { return pipeline_.parameters(); }
+  const trk_bridge::ros1::CameraParameters& parameters() const noexcept { return pipeline_.parameters(); }
 
  private:
-  void log_new(const std::vector<trk_bridge::ros::Finding>&);
+  void log_new(const std::vector<trk_bridge::ros1::Finding>&);
 
-  trk_bridge::ros::CameraPipeline pipeline_;
+  trk_bridge::ros1::CameraPipeline pipeline_;
   double field_rate_;
   ::ros::Publisher params_, constants_, camera_info_;
   tf2_ros::TransformBroadcaster transforms_;
-  transport::Snapshot<trk_bridge::ros::CameraStatistics> statistics_;
-  trk_bridge::ros::CameraReport last_report_;
-  std::vector<trk_bridge::ros::Condition> logged_;
+  transport::Snapshot<trk_bridge::ros1::CameraStatistics> statistics_;
+  trk_bridge::ros1::CameraReport last_report_;
+  std::vector<trk_bridge::ros1::Condition> logged_;
 };
 
 }  // namespace trk_bridge::nodes

@@ -25,8 +25,8 @@ void SourceReader::start() {
   thread_ = std::thread([this] { run(); });
 }
 
-trk_bridge::ros::CameraReport SourceReader::report() const {
-  trk_bridge::ros::CameraReport report;
+trk_bridge::ros1::CameraReport SourceReader::report() const {
+  trk_bridge::ros1::CameraReport report;
   report.source_name = source_->name();
   report.source = source_->statistics();
   report.reader = published_.load();

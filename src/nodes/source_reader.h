@@ -27,7 +27,7 @@ class SourceReader {
   void start();
 
   /// How it stands at this moment, but for the cameras' part. Any thread.
-  trk_bridge::ros::CameraReport report() const;
+  trk_bridge::ros1::CameraReport report() const;
 
  private:
   void run();
@@ -37,8 +37,8 @@ class SourceReader {
 
   std::unique_ptr<transport::Source> source_;
   std::vector<CameraOutput*> cameras_;
-  trk_bridge::ros::ReaderStatistics statistics_;
-  transport::Snapshot<trk_bridge::ros::ReaderStatistics> published_;
+  trk_bridge::ros1::ReaderStatistics statistics_;
+  transport::Snapshot<trk_bridge::ros1::ReaderStatistics> published_;
   mutable std::mutex failure_mutex_;
   std::string failure_;  // of the thread itself
   std::thread thread_;

@@ -14,11 +14,11 @@ std::string camera_name_of(const std::string& name_space) {
   return last.empty() ? "camera" : last;
 }
 
-trk_bridge::ros::TrkToRosParameters read_parameters(const ::ros::NodeHandle& node,
-                                                    const ::ros::NodeHandle& private_node) {
+trk_bridge::ros1::TrkToRosParameters read_parameters(const ::ros::NodeHandle& node,
+                                                     const ::ros::NodeHandle& private_node) {
   XmlRpc::XmlRpcValue tree;
   private_node.getParam(private_node.getNamespace(), tree);  // absent: an empty tree
-  return trk_bridge::ros::read_trk_to_ros_parameters(tree, camera_name_of(node.getNamespace()));
+  return trk_bridge::ros1::read_trk_to_ros_parameters(tree, camera_name_of(node.getNamespace()));
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ TrkToRos::TrkToRos(::ros::NodeHandle node, ::ros::NodeHandle private_node, const
   for (auto& reader : readers_) reader->start();
 }
 
-void TrkToRos::open(const trk_bridge::ros::TrkToRosParameters& parameters) {
+void TrkToRos::open(const trk_bridge::ros1::TrkToRosParameters& parameters) {
   std::map<std::string, std::vector<CameraOutput*>> by_source;
   for (const auto& camera : parameters.cameras) {
     const auto topics = parameters.several ? ::ros::NodeHandle(node_, camera.name) : node_;
@@ -60,7 +60,7 @@ void TrkToRos::send_static_transforms() {
     transform.header.stamp = ::ros::Time::now();
     transform.header.frame_id = camera->parameters().camera_frame;
     transform.child_frame_id = camera->parameters().optical_frame;
-    transform.transform = trk_bridge::ros::to_transform(trk_bridge::ros::camera_T_optical());
+    transform.transform = trk_bridge::ros1::to_transform(trk_bridge::ros1::camera_T_optical());
     transforms.push_back(transform);
   }
   if (!transforms.empty()) static_transforms_.sendTransform(transforms);

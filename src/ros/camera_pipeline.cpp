@@ -1,12 +1,13 @@
 #include "trk_bridge/ros/camera_pipeline.h"
 
 #include <cmath>
+#include <cstring>
 
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/ros/messages.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 using camera::CameraReason;
@@ -30,6 +31,9 @@ CameraPipeline::CameraPipeline(const CameraParameters& parameters, double field_
   params_.header.frame_id = parameters.studio_frame;
   constants_message_.header.frame_id = parameters.camera_frame;
   camera_info_.header.frame_id = parameters.optical_frame;
+  // For the longer of both models, so that a change of the lens allocates nothing.
+  camera_info_.D.reserve(8);
+  camera_info_.distortion_model.reserve(std::strlen(camera::name(camera::DistortionModel::rational_polynomial)));
   transform_.header.frame_id = parameters.studio_frame;
   transform_.child_frame_id = parameters.camera_frame;
   if (parameters.constants) use(*parameters.constants, ConstantsOrigin::parameter);
@@ -150,4 +154,4 @@ bool CameraPipeline::make_camera_info(const camera::Result<camera::Lens>& lens) 
   return true;
 }
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

@@ -5,7 +5,7 @@
 
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
@@ -220,4 +220,4 @@ void fill(diagnostic_updater::DiagnosticStatusWrapper& status, const std::vector
   status.add("last error", now.source.error.empty() ? std::string("none") : now.source.error);
 }
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

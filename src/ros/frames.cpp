@@ -1,6 +1,6 @@
 #include "trk_bridge/ros/frames.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 
 geometry_msgs::Transform to_transform(const Eigen::Isometry3d& parent_T_child) {
   Eigen::Quaterniond q(parent_T_child.linear());
@@ -35,4 +35,4 @@ Eigen::Isometry3d camera_T_optical() {
   return pose;
 }
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

@@ -5,7 +5,7 @@
 
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 
 using Params = trk_bridge::CameraParams;
 
@@ -106,4 +106,4 @@ wire::CameraConstants from_msg(const trk_bridge::CameraConstants& message) {
   return constants;
 }
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

@@ -5,7 +5,7 @@
 
 #include "trk_bridge/wire/nearest.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 using XmlRpc::XmlRpcValue;
@@ -116,4 +116,4 @@ void ParameterReader::refuse_unknown() {
   }
 }
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

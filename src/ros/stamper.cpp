@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 constexpr std::int64_t nanoseconds_per_second = 1'000'000'000;
@@ -33,4 +33,4 @@ std::optional<::ros::Time> Stamper::stamp(std::int64_t arrival) noexcept {
   return time;
 }
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

@@ -4,7 +4,7 @@
 
 #include "trk_bridge/ros/parameter_reader.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 using XmlRpc::XmlRpcValue;
@@ -114,4 +114,4 @@ TrkToRosParameters read_trk_to_ros_parameters(const XmlRpcValue& tree, const std
   return parameters;
 }
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

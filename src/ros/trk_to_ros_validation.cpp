@@ -7,7 +7,7 @@
 #include "trk_bridge/transport/endpoint.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 /// Collects faults under the keys a user wrote.
@@ -151,4 +151,4 @@ std::vector<std::string> validate(const TrkToRosParameters& parameters) {
   return lines;
 }
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

@@ -45,7 +45,8 @@ class Conditions : public NodeTest {
 
 TEST_F(Conditions, DuplicatesAndLateRecordsAreNeverPublishedRestartsAre) {
   ASSERT_NO_FATAL_FAILURE(open());
-  for (const std::uint64_t counter : {1000, 1001, 1001, 1004, 1003, 1005, 3, 4, 3}) tracker->send(some_params(counter));
+  for (const std::uint64_t counter : {1000, 1001, 1001, 1004, 1003, 1005, 3, 4, 3})
+    tracker->send(test::params(counter));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "duplicate", "2"));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "out of order", "1"));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "lost", "1"));
@@ -62,11 +63,11 @@ TEST_F(Conditions, MalformedDatagramsCostThemselvesAlone) {
   ASSERT_NO_FATAL_FAILURE(open());
   tracker->send_bytes("hello");
   EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "datagrams come but none is trk"));
-  tracker->send(some_params(1));
-  tracker->send_bytes(std::string_view("DMC01\0PA1 1 2 3 4", 17));
+  tracker->send(test::params(1));
+  tracker->send_bytes(std::string("DMC01\0PA1 1 2 3 4", 17));
   tracker->send_bytes("");
-  tracker->send_bytes(std::string_view("DMC01\0PA1 nan 2 3 0 0 0 10 0 0 0 0 0 0 2", 40));
-  tracker->send(some_params(2));
+  tracker->send_bytes(std::string("DMC01\0PA1 nan 2 3 0 0 0 10 0 0 0 0 0 0 2", 40));
+  tracker->send(test::params(2));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "malformed", "4"));
   EXPECT_TRUE(counters_are({1, 2}));
   EXPECT_TRUE(eventually([this] { return transforms->transforms.size() == 2; }));
@@ -74,12 +75,12 @@ TEST_F(Conditions, MalformedDatagramsCostThemselvesAlone) {
 
 TEST_F(Conditions, WhatIsNoRotationNeverReachesTf) {
   ASSERT_NO_FATAL_FAILURE(open());
-  auto mirrored = some_params(2);
+  auto mirrored = test::params(2);
   mirrored.format = 0;
   mirrored.matrix = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-  tracker->send(some_params(1));
+  tracker->send(test::params(1));
   tracker->send(mirrored);
-  tracker->send(some_params(3));
+  tracker->send(test::params(3));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "dropped", "1"));
   EXPECT_TRUE(counters_are({1, 3}));
   EXPECT_TRUE(eventually([this] { return transforms->transforms.size() == 2; }));
@@ -88,14 +89,14 @@ TEST_F(Conditions, WhatIsNoRotationNeverReachesTf) {
 TEST_F(Conditions, SilenceIsToldAndNothingIsRepeated) {
   ASSERT_NO_FATAL_FAILURE(open());
   EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::STALE, "nothing received yet"));
-  tracker->send(some_params(1));
+  tracker->send(test::params(1));
   EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "nothing new for"));
   EXPECT_EQ(transforms->transforms.size(), 1u);
 }
 
 TEST_F(Conditions, SendersThatAreNotAllowed) {
   ASSERT_NO_FATAL_FAILURE(open("?allow=127.0.0.2"));
-  tracker->send(some_params(1));
+  tracker->send(test::params(1));
   EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "senders that are not allowed"));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "refused senders", "1"));
   EXPECT_TRUE(transforms->transforms.empty());
@@ -104,16 +105,16 @@ TEST_F(Conditions, SendersThatAreNotAllowed) {
 TEST_F(Conditions, IdsThatTheCameraDoesNotWant) {
   set("id", 7);
   ASSERT_NO_FATAL_FAILURE(open());
-  tracker->send(some_params(1, 3));
+  tracker->send(test::params(1, 3));
   EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "none with id 7; seen: 3"));
-  tracker->send(some_params(1, 7));
+  tracker->send(test::params(1, 7));
   EXPECT_TRUE(counters_are({1}));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "unknown ids", "1"));
 }
 
 TEST_F(Conditions, LateConstants) {
   ASSERT_NO_FATAL_FAILURE(open());
-  auto angle = some_params(1);
+  auto angle = test::params(1);
   angle.format |= wire::field_of_view;
   angle.fov = 50;
   tracker->send(angle);
@@ -123,8 +124,8 @@ TEST_F(Conditions, LateConstants) {
   EXPECT_TRUE(params->messages.empty());
   EXPECT_TRUE(infos->messages.empty());
 
-  tracker->send(some_constants());
-  tracker->send(some_constants());
+  tracker->send(test::constants());
+  tracker->send(test::constants());
   angle.counter = 2;
   tracker->send(angle);
   EXPECT_TRUE(counters_are({2}));
@@ -138,7 +139,7 @@ TEST_F(Conditions, LateConstants) {
 
 TEST_F(Conditions, ConstantsNeverComeParamsThatNeedNoneAreToldWithoutCameraInfo) {
   ASSERT_NO_FATAL_FAILURE(open());
-  tracker->send(some_params(1));
+  tracker->send(test::params(1));
   EXPECT_TRUE(counters_are({1}));
   EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "no constants yet"));
   EXPECT_TRUE(infos->messages.empty());
@@ -151,11 +152,11 @@ TEST_F(Conditions, ConstantsOfTheParameterServeUntilOthersAreReceived) {
   set("constants/chip_height", 5.39);
   ASSERT_NO_FATAL_FAILURE(open());
   ASSERT_TRUE(eventually([this] { return constants->messages.size() == 1; })) << "published at the start";
-  tracker->send(some_params(1));
+  tracker->send(test::params(1));
   ASSERT_TRUE(eventually([this] { return infos->messages.size() == 1; }));
   EXPECT_EQ(infos->messages[0].width, 1280u);
-  tracker->send(some_constants());
-  tracker->send(some_params(2));
+  tracker->send(test::constants(1920));
+  tracker->send(test::params(2));
   ASSERT_TRUE(eventually([this] { return infos->messages.size() == 2; }));
   EXPECT_EQ(infos->messages[1].width, 1920u);
   EXPECT_EQ(constants->messages.back().image_width, 1920);
@@ -165,7 +166,7 @@ TEST_F(Conditions, DelayIsTakenOffEveryStamp) {
   set("delay", 5.0);
   ASSERT_NO_FATAL_FAILURE(open());
   const auto before = ::ros::Time::now();
-  tracker->send(some_params(1));
+  tracker->send(test::params(1));
   ASSERT_TRUE(eventually([this] { return transforms->transforms.size() == 1 && params->messages.size() == 1; }));
   const auto stamp = transforms->transforms[0].header.stamp;
   EXPECT_GE(stamp, before - ::ros::Duration(5));
@@ -175,7 +176,7 @@ TEST_F(Conditions, DelayIsTakenOffEveryStamp) {
 
 TEST_F(Conditions, ABurstArrivesWhole) {
   ASSERT_NO_FATAL_FAILURE(open());
-  for (std::uint64_t counter = 1; counter <= 80; ++counter) tracker->send(some_params(counter));
+  for (std::uint64_t counter = 1; counter <= 80; ++counter) tracker->send(test::params(counter));
   EXPECT_TRUE(eventually([this] { return params->messages.size() == 80 && transforms->transforms.size() == 80; }));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "received", "80"));
   EXPECT_EQ(diagnostics.value(status_name(), "lost"), "0");

@@ -1,16 +1,12 @@
 // What tests of whole nodes need: a node as a process of its own, what it publishes, and places to send to.
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -18,38 +14,14 @@
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "program.h"
 #include "trk_bridge/wire/codec.h"
+#include "udp.h"
 
 namespace trk_bridge::test {
 
-/// Long enough for a loaded machine; a condition that is met ends the wait at once.
-inline constexpr std::chrono::seconds deadline{20};
-
 /// Handles ROS callbacks until `condition` is met or the deadline has passed; whether it was met.
 bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds within = deadline);
-
-/// A program that runs beside the test. Its standard error is kept.
-class Process {
- public:
-  Process(const std::string& program, const std::vector<std::string>& arguments);
-  /// Ends it (SIGKILL) if it still runs.
-  ~Process();
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-
-  void signal(int number);
-  /// Its exit status, or 128 + the signal that ended it; none when it still runs after `within`.
-  std::optional<int> wait(std::chrono::nanoseconds within = deadline);
-  bool running();
-  /// What it has written to standard error so far.
-  std::string said();
-
- private:
-  pid_t pid_ = -1;
-  int stderr_ = -1;
-  std::string said_;
-  std::optional<int> status_;
-};
 
 /// Messages of one topic, in order of arrival.
 template <typename Message>
@@ -96,35 +68,25 @@ class DiagnosticsRecorder {
   ::ros::Subscriber subscriber_;
 };
 
-/// A UDP socket that sends to one port of 127.0.0.1.
+/// Sends to one port of 127.0.0.1.
 class Tracker {
  public:
-  explicit Tracker(std::uint16_t port);
-  ~Tracker();
-  Tracker(const Tracker&) = delete;
-  Tracker& operator=(const Tracker&) = delete;
+  explicit Tracker(std::uint16_t port) : port_(port) {}
 
-  void send_bytes(std::string_view datagram);
+  void send_bytes(const std::string& bytes) const { socket_.send(bytes, "127.0.0.1", port_); }
   template <typename RecordType>
-  void send(const RecordType& record, wire::WireForm form = {}) {
-    wire::Buffer buffer;
-    send_bytes(wire::encode(record, form, buffer).value());
+  void send(const RecordType& record, wire::WireForm form = {}) const {
+    send_bytes(datagram(record, form));
   }
 
  private:
-  int socket_ = -1;
+  PlainSocket socket_;
+  std::uint16_t port_;
 };
 
 /// A port of 127.0.0.1 that nobody is bound to.
-std::uint16_t free_udp_port();
+inline std::uint16_t free_udp_port() { return PlainSocket().port(); }
 std::string udp_url(std::uint16_t port);
-/// A slot without file and segment.
-int free_slot();
-
-/// Picture and chip without blanks.
-wire::CameraConstants some_constants(std::uint32_t id = 0);
-/// Euler and image distance: needs no constants.
-wire::CameraParams some_params(std::uint64_t counter, std::uint32_t id = 0);
 
 /// One camera's node in a namespace of its own, made for one test.
 class NodeTest : public ::testing::Test {
@@ -147,7 +109,7 @@ class NodeTest : public ::testing::Test {
   std::string name_space;  ///< "/" + camera
   std::string node_name;
   DiagnosticsRecorder diagnostics;
-  std::unique_ptr<Process> node;
+  std::unique_ptr<Program> node;
 };
 
 }  // namespace trk_bridge::test

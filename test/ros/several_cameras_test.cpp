@@ -1,12 +1,11 @@
 // Several cameras in one node, and sources other than UDP.
-#include <stdlib.h>
-
-#include <filesystem>
-#include <fstream>
+#include <csignal>
 
 #include <trk_bridge/CameraParams.h>
 
 #include "fixture.h"
+#include "free_slot.h"
+#include "temporary_directory.h"
 #include "trk_bridge/ros/trk_to_ros_parameters.h"
 #include "trk_bridge/transport/sink.h"
 
@@ -18,9 +17,10 @@ class SeveralCameras : public NodeTest {};
 TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory) {
   XmlRpc::XmlRpcValue tree;
   ASSERT_TRUE(::ros::param::get("/three_cameras", tree));
-  ASSERT_EQ(ros::read_trk_to_ros_parameters(tree, "unused").cameras.size(), 3u) << "the file itself is sound";
+  ASSERT_EQ(ros1::read_trk_to_ros_parameters(tree, "unused").cameras.size(), 3u) << "the file itself is sound";
   const auto port = free_udp_port();
-  const std::string slot = "shm:" + std::to_string(free_slot());
+  const FreeSlot free_slot;
+  const std::string slot = "shm:" + std::to_string(free_slot.number());
   tree["source"] = udp_url(port);
   tree["cameras"]["pedestal"]["source"] = slot;
   tree["diagnostic_period"] = 0.1;
@@ -37,16 +37,16 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
   Tracker tracker(port);
   auto sink = transport::open_sink(slot);
   for (std::uint64_t counter = 1; counter <= 3; ++counter) {
-    tracker.send(some_params(counter, 1));
-    tracker.send(some_params(counter + 100, 2));
-    tracker.send(some_params(counter, 9));
+    tracker.send(test::params(counter, 1));
+    tracker.send(test::params(counter + 100, 2));
+    tracker.send(test::params(counter, 9));
   }
   EXPECT_TRUE(eventually([&] { return one.messages.size() == 3 && two.messages.size() == 3; }));
   EXPECT_EQ(two.messages.back().counter, 103u);
   // What was written before the reader attached is not news to it.
   std::uint64_t counter = 0;
   EXPECT_TRUE(eventually([&] {
-    EXPECT_TRUE(sink->write(some_params(++counter)));
+    EXPECT_TRUE(sink->write(test::params(++counter)));
     return !three.messages.empty() && !frame_three.transforms.empty();
   }));
   EXPECT_TRUE(eventually([&] { return frame_one.transforms.size() == 3 && frame_two.transforms.size() == 3; }));
@@ -60,22 +60,15 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
 
 class FromFile : public NodeTest {
  protected:
-  FromFile() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "trk_to_ros_XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder = pattern;
-  }
-  ~FromFile() override { std::filesystem::remove_all(folder); }
-
-  std::filesystem::path folder;
+  const TemporaryDirectory folder;
 };
 
 TEST_F(FromFile, ATakeIsPlayedToItsEndAndTheNodeLivesOn) {
   const std::string path = folder / "take.trk";
   {
     auto sink = transport::open_sink("file:" + path);
-    ASSERT_TRUE(sink->write(some_constants()));
-    for (std::uint64_t counter = 1; counter <= 50; ++counter) ASSERT_TRUE(sink->write(some_params(counter)));
+    ASSERT_TRUE(sink->write(test::constants()));
+    for (std::uint64_t counter = 1; counter <= 50; ++counter) ASSERT_TRUE(sink->write(test::params(counter)));
     ASSERT_TRUE(sink->close());
   }
   set("source", "file:" + path + "?time=now");
@@ -84,16 +77,17 @@ TEST_F(FromFile, ATakeIsPlayedToItsEndAndTheNodeLivesOn) {
   EXPECT_TRUE(diagnostics.tells(status_name(), diagnostic_msgs::DiagnosticStatus::OK, "ended"));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "received", "50"));
   ASSERT_TRUE(eventually([&] { return !params.messages.empty() && params.messages.back().counter == 50; }));
-  EXPECT_TRUE(node->running());
+  node->signal(SIGINT);
+  EXPECT_EQ(node->wait(), 0) << "it lived until it was ended";
 }
 
 TEST_F(FromFile, AFaultyTakeIsRefusedWithItsLine) {
   const std::string path = folder / "faulty.trk";
-  std::ofstream(path) << "DMC01\n00:00:00:00:1\n1920 1080 0 0 0 0 9.59 5.39 9.59 5.39\n1 1 2 three\n";
+  write_text(path, "DMC01\n00:00:00:00:1\n1920 1080 0 0 0 0 9.59 5.39 9.59 5.39\n1 1 2 three\n");
   set("source", "file:" + path);
   start();
+  EXPECT_THAT(node->rest_of_err(), ::testing::HasSubstr("faulty.trk:4"));
   EXPECT_EQ(node->wait(), 1);
-  EXPECT_THAT(node->said(), ::testing::HasSubstr("faulty.trk:4"));
 }
 
 }  // namespace

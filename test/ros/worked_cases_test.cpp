@@ -57,7 +57,7 @@ class WorkedCases : public NodeTest, public ::testing::WithParamInterface<wire::
   }
 
   void expect_pose(const rapidjson::Value& expect) const {
-    const auto pose = ros::to_isometry(transforms->transforms.back().transform);
+    const auto pose = ros1::to_isometry(transforms->transforms.back().transform);
     const auto& rows = expect["studio_T_camera_rows"];
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column) {
@@ -96,8 +96,8 @@ class WorkedCases : public NodeTest, public ::testing::WithParamInterface<wire::
     }
     image_geometry::PinholeCameraModel model;
     model.fromCameraInfo(info);
-    const auto optical_T_studio = (ros::to_isometry(transforms->transforms.back().transform) *
-                                   ros::to_isometry(statics->transforms.front().transform))
+    const auto optical_T_studio = (ros1::to_isometry(transforms->transforms.back().transform) *
+                                   ros1::to_isometry(statics->transforms.front().transform))
                                       .inverse();
     for (const auto& point : expect["points"].GetArray()) {
       const auto& s = point["studio"];

@@ -16,7 +16,7 @@
 #include "trk_bridge/transport/sequence.h"
 #include "trk_bridge/transport/source.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 
 /// Where the constants in use come from, the weightiest last.
 enum class ConstantsOrigin : std::uint8_t {
@@ -99,4 +99,4 @@ class CameraPipeline {
   geometry_msgs::TransformStamped transform_;
 };
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

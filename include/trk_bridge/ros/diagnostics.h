@@ -12,7 +12,7 @@
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/fault.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 
 /// What a reader noticed besides what its source counts. Trivially copyable.
 struct ReaderStatistics {
@@ -74,4 +74,4 @@ std::vector<Finding> findings(const CameraReport& now, const CameraReport& befor
 void fill(diagnostic_updater::DiagnosticStatusWrapper& status, const std::vector<Finding>& found,
           const CameraReport& now, const CameraReport& before);
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

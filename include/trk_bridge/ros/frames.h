@@ -1,10 +1,12 @@
 // Frames and signs on the ROS side: the one place that knows both.
+//
+// The namespace is not called ros: generated messages live in trk_bridge and mean the outer one when they say ros.
 #pragma once
 
 #include <geometry_msgs/Transform.h>
 #include <Eigen/Geometry>
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 
 /// A pose as tf tells it: translation in m and a unit quaternion with w >= 0, so that equal rotations give equal
 /// messages. With `studio_T_camera` it is the transform of parent studio frame and child camera frame; both are z-up
@@ -18,4 +20,4 @@ Eigen::Isometry3d to_isometry(const geometry_msgs::Transform&);
 /// z up). No translation.
 Eigen::Isometry3d camera_T_optical();
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

@@ -8,7 +8,7 @@
 #include "trk_bridge/camera/calibration.h"
 #include "trk_bridge/wire/record.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 
 /// Field by field, in the units of the record's format. What the format does not select (matrix or Euler) is zero.
 void to_msg(const wire::CameraParams& params, trk_bridge::CameraParams& message);
@@ -20,4 +20,4 @@ void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& mes
 wire::CameraParams from_msg(const trk_bridge::CameraParams& message);
 wire::CameraConstants from_msg(const trk_bridge::CameraConstants& message);
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

@@ -10,7 +10,7 @@
 
 #include <xmlrpcpp/XmlRpcValue.h>
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 
 /// The text names the key, the value and what is allowed; one line for every fault.
 class ParameterError : public std::runtime_error {
@@ -52,4 +52,4 @@ class ParameterReader {
   std::vector<std::string> known_;
 };
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

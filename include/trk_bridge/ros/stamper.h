@@ -7,7 +7,7 @@
 
 #include <ros/time.h>
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 
 /// Nanoseconds since 1970 UTC as a ROS time; none outside of what that can hold (1970 to 2106) and for 0, which ROS
 /// takes for "no time".
@@ -38,4 +38,4 @@ class Stamper {
   std::int64_t ahead_ = 0;
 };
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

@@ -12,7 +12,7 @@ namespace XmlRpc {
 class XmlRpcValue;
 }
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 
 /// Parameters of one camera.
 struct CameraParameters {
@@ -50,4 +50,4 @@ std::vector<std::string> validate(const TrkToRosParameters&);
 /// Throws ParameterError with every fault.
 TrkToRosParameters read_trk_to_ros_parameters(const XmlRpc::XmlRpcValue& tree, const std::string& camera_name);
 
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

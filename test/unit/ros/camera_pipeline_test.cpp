@@ -8,7 +8,7 @@
 #include "trk_bridge/wire/format.h"
 #include "vectors.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 constexpr std::int64_t second = 1'000'000'000;
@@ -231,4 +231,4 @@ TEST(CameraPipeline, ATimeOutsideOfRosTimeIsDropped) {
 }
 
 }  // namespace
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

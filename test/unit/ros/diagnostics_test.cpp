@@ -4,7 +4,7 @@
 
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
@@ -160,4 +160,4 @@ TEST_F(Diagnostics, NoCameraInfoSaysWhy) {
 }
 
 }  // namespace
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

@@ -8,7 +8,7 @@
 #include "trk_bridge/wire/format.h"
 #include "vectors.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 /// A vector turned by a quaternion, written out: independent of Eigen's rotation code.
@@ -77,4 +77,4 @@ TEST(Frames, EveryCaseArrivesAsItsStudioTCamera) {
 }
 
 }  // namespace
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

@@ -5,7 +5,7 @@
 #include "trk_bridge/wire/format.h"
 #include "vectors.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 wire::CameraParams numbered(std::uint32_t format) {
@@ -94,4 +94,4 @@ TEST(Messages, CalibrationAsCameraInfo) {
 }
 
 }  // namespace
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

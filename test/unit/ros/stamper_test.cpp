@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 using std::chrono::milliseconds;
@@ -61,4 +61,4 @@ TEST(Stamper, EndsWithRosTime) {
 }
 
 }  // namespace
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1

@@ -6,7 +6,7 @@
 
 #include "trk_bridge/ros/parameter_reader.h"
 
-namespace trk_bridge::ros {
+namespace trk_bridge::ros1 {
 namespace {
 
 using ::testing::AllOf;
@@ -237,4 +237,4 @@ TEST(Read, NoParametersAtAllMissTheSource) {
 TEST(Read, ATreeThatIsNoMapIsRefused) { EXPECT_THAT(message_of(XmlRpcValue(7)), HasSubstr("must be a map")); }
 
 }  // namespace
-}  // namespace trk_bridge::ros
+}  // namespace trk_bridge::ros1
