@@ -8,6 +8,14 @@ jobs=${TRK_BRIDGE_JOBS:-$(nproc)}
 export PATH=/usr/bin:$PATH
 unset PYTHONHOME PYTHONPATH
 
+# A shell that has sourced our devel space already would make catkin write setup files that change nothing.
+without_build() {
+  printf %s "$1" | tr ':' '\n' | grep -v "^$build/" | paste -sd: || true
+}
+for variable in CMAKE_PREFIX_PATH LD_LIBRARY_PATH PATH PKG_CONFIG_PATH ROS_PACKAGE_PATH; do
+  [ -z "${!variable:-}" ] || export "$variable=$(without_build "${!variable}")"
+done
+
 # Noetic brings its own tree; Debian's packages are in /usr and need no set-up.
 if [ -r /opt/ros/noetic/setup.bash ]; then
   set +u
