@@ -13,7 +13,9 @@ without_build() {
   printf %s "$1" | tr ':' '\n' | grep -v "^$build/" | paste -sd: || true
 }
 for variable in CMAKE_PREFIX_PATH LD_LIBRARY_PATH PATH PKG_CONFIG_PATH ROS_PACKAGE_PATH; do
-  [ -z "${!variable:-}" ] || export "$variable=$(without_build "${!variable}")"
+  [ -n "${!variable:-}" ] || continue
+  export "$variable=$(without_build "${!variable}")"
+  [ -n "${!variable}" ] || unset "$variable"
 done
 
 # Noetic brings its own tree; Debian's packages are in /usr and need no set-up.
