@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include "finding_log.h"
 #include "snapshot.h"
 #include "trk_bridge/ros/camera_pipeline.h"
 #include "trk_bridge/ros/diagnostics.h"
@@ -33,15 +33,13 @@ class CameraOutput {
   const trk_bridge::ros1::CameraParameters& parameters() const noexcept { return pipeline_.parameters(); }
 
  private:
-  void log_new(const std::vector<trk_bridge::ros1::Finding>&);
-
   trk_bridge::ros1::CameraPipeline pipeline_;
   double field_rate_;
   ::ros::Publisher params_, constants_, camera_info_;
   tf2_ros::TransformBroadcaster transforms_;
   transport::Snapshot<trk_bridge::ros1::CameraStatistics> statistics_;
   trk_bridge::ros1::CameraReport last_report_;
-  std::vector<trk_bridge::ros1::Condition> logged_;
+  FindingLog log_;
 };
 
 }  // namespace trk_bridge::nodes

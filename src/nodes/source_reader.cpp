@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include "steady_time.h"
+
 namespace trk_bridge::nodes {
-namespace {
-
-std::int64_t steady_now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-}  // namespace
 
 SourceReader::SourceReader(std::unique_ptr<transport::Source> source, std::vector<CameraOutput*> cameras)
     : source_(std::move(source)), cameras_(std::move(cameras)) {}

@@ -2,35 +2,18 @@
 
 #include <map>
 
+#include "node_parameters.h"
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/ros/trk_to_ros_parameters.h"
 
 namespace trk_bridge::nodes {
-namespace {
-
-/// The last element of a namespace names the camera in it.
-std::string camera_name_of(const std::string& name_space) {
-  const std::string last = name_space.substr(name_space.find_last_of('/') + 1);
-  return last.empty() ? "camera" : last;
-}
-
-trk_bridge::ros1::TrkToRosParameters read_parameters(const ::ros::NodeHandle& node,
-                                                     const ::ros::NodeHandle& private_node) {
-  XmlRpc::XmlRpcValue tree;
-  private_node.getParam(private_node.getNamespace(), tree);  // absent: an empty tree
-  return trk_bridge::ros1::read_trk_to_ros_parameters(tree, camera_name_of(node.getNamespace()));
-}
-
-}  // namespace
-
 TrkToRos::TrkToRos(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name)
     : node_(std::move(node)), diagnostics_(node_, private_node, name) {
-  const auto parameters = read_parameters(node_, private_node);
-  diagnostics_.setHardwareID("trk");
+  const auto parameters = trk_bridge::ros1::read_trk_to_ros_parameters(private_parameters(private_node),
+                                                                       camera_name_of(node_.getNamespace()));
   open(parameters);
   send_static_transforms();
-  diagnostics_timer_ = node_.createWallTimer(::ros::WallDuration(diagnostics_.getPeriod()),
-                                             [this](const ::ros::WallTimerEvent&) { diagnostics_.force_update(); });
+  diagnostics_.start();
   for (auto& reader : readers_) reader->start();
 }
 

@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
-#include <ros/wall_timer.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include "camera_output.h"
+#include "node_diagnostics.h"
 #include "source_reader.h"
 
 namespace trk_bridge::nodes {
@@ -31,8 +30,7 @@ class TrkToRos {
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   std::vector<std::unique_ptr<CameraOutput>> cameras_;
   std::vector<std::unique_ptr<SourceReader>> readers_;
-  diagnostic_updater::Updater diagnostics_;
-  ::ros::WallTimer diagnostics_timer_;
+  NodeDiagnostics diagnostics_;
 };
 
 }  // namespace trk_bridge::nodes

@@ -1,8 +1,8 @@
 #include "trk_bridge/ros/diagnostics.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "diagnostic_text.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {
@@ -11,28 +11,8 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 using transport::SourceState;
 
-constexpr double nanoseconds_per_second = 1e9;
-
-std::string seconds_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f s", seconds);
-  return text;
-}
-
-std::string rate_text(double rate) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", rate);
-  return text;
-}
-
-double seconds_between(std::int64_t from, std::int64_t to) {
-  return static_cast<double>(to - from) / nanoseconds_per_second;
-}
-
 double rate_of(const CameraReport& now, const CameraReport& before) {
-  const double seconds = seconds_between(before.time, now.time);
-  if (seconds <= 0) return 0;
-  return static_cast<double>(now.camera.sequence.accepted - before.camera.sequence.accepted) / seconds;
+  return rate_between(before.camera.sequence.accepted, now.camera.sequence.accepted, before.time, now.time);
 }
 
 std::string ids_text(const ReaderStatistics& reader) {
@@ -160,8 +140,7 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
   }
   if (camera.held_stamps > old.held_stamps) {
     warn(Condition::stamps_held, "the clock stands or stepped back: stamps are " +
-                                     seconds_text(static_cast<double>(camera.stamp_ahead) / nanoseconds_per_second) +
-                                     " ahead");
+                                     seconds_text(seconds_between(0, camera.stamp_ahead)) + " ahead");
   }
 }
 
@@ -178,13 +157,7 @@ std::vector<Finding> findings(const CameraReport& now, const CameraReport& befor
 void fill(diagnostic_updater::DiagnosticStatusWrapper& status, const std::vector<Finding>& found,
           const CameraReport& now, const CameraReport& before) {
   status.hardware_id = now.source_name;
-  std::uint8_t level = DiagnosticStatus::OK;
-  std::string text;
-  for (const auto& finding : found) {
-    level = std::max(level, finding.level);
-    text += (text.empty() ? "" : "; ") + finding.text;
-  }
-  status.summary(level, text);
+  summarize(found, status);
 
   const auto& camera = now.camera;
   const bool any = camera.sequence.accepted > 0;

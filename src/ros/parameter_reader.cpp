@@ -66,6 +66,22 @@ std::optional<std::string> ParameterReader::text(const std::string& key) {
   return std::nullopt;
 }
 
+std::optional<std::vector<std::string>> ParameterReader::texts(const std::string& key) {
+  auto* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->getType() == XmlRpcValue::TypeString) return std::vector{static_cast<std::string&>(*value)};
+  bool sound = value->getType() == XmlRpcValue::TypeArray;
+  std::vector<std::string> all;
+  for (int i = 0; sound && i < value->size(); ++i) {
+    auto& one = (*value)[i];
+    sound = one.getType() == XmlRpcValue::TypeString;
+    if (sound) all.push_back(static_cast<std::string&>(one));
+  }
+  if (sound) return all;
+  wrong_type(key, *value, "a list of texts");
+  return std::nullopt;
+}
+
 std::optional<double> ParameterReader::number(const std::string& key) {
   auto* value = find(key);
   if (value == nullptr) return std::nullopt;

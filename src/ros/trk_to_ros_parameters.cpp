@@ -2,40 +2,13 @@
 
 #include <utility>
 
+#include "shared_parameters.h"
 #include "trk_bridge/ros/parameter_reader.h"
 
 namespace trk_bridge::ros1 {
 namespace {
 
 using XmlRpc::XmlRpcValue;
-
-template <typename T>
-void take(std::optional<T> given, T& into) {
-  if (given) into = *std::move(given);
-}
-
-std::optional<wire::CameraConstants> read_constants(ParameterReader& outer, std::vector<std::string>& faults) {
-  const auto tree = outer.map("constants");
-  if (!tree) return std::nullopt;
-  ParameterReader reader(*tree, outer.path() + "constants/", faults);
-  wire::CameraConstants constants;
-  const std::pair<const char*, std::int32_t*> pixels[] = {
-      {"image_width", &constants.image_width}, {"image_height", &constants.image_height},
-      {"blank_left", &constants.blank_left},   {"blank_right", &constants.blank_right},
-      {"blank_top", &constants.blank_top},     {"blank_bottom", &constants.blank_bottom}};
-  for (const auto& [key, into] : pixels) take(reader.integer(key), *into);
-  const std::pair<const char*, double*> millimetres[] = {{"chip_width", &constants.chip_width},
-                                                         {"chip_height", &constants.chip_height},
-                                                         {"fake_chip_width", &constants.fake_chip_width},
-                                                         {"fake_chip_height", &constants.fake_chip_height}};
-  for (const auto& [key, into] : millimetres) take(reader.number(key), *into);
-  for (const char* key : {"image_width", "image_height", "chip_width", "chip_height"}) {
-    if (!reader.has(key))
-      faults.push_back(reader.path() + key + ": must be given (blanks and fake chip may be left out)");
-  }
-  reader.refuse_unknown();
-  return constants;
-}
 
 /// What a camera has of its own or inherits from the node.
 void read_shared(ParameterReader& reader, CameraParameters& camera, std::vector<std::string>& faults) {
@@ -50,13 +23,7 @@ void read_shared(ParameterReader& reader, CameraParameters& camera, std::vector<
 
 /// What only one camera can have.
 void read_own(ParameterReader& reader, CameraParameters& camera, std::vector<std::string>& faults) {
-  if (const auto id = reader.integer("id")) {
-    if (*id < 0) {
-      faults.push_back(reader.path() + "id = " + std::to_string(*id) + ": must be 0 or more");
-    } else {
-      camera.id = static_cast<std::uint32_t>(*id);
-    }
-  }
+  camera.id = read_id(reader, faults);
   camera.camera_frame = reader.text("camera_frame").value_or(camera.name);
   camera.optical_frame = reader.text("optical_frame").value_or(camera.name + "_optical");
 }
@@ -88,10 +55,7 @@ void read_cameras(ParameterReader& node, const CameraParameters& shared, TrkToRo
 TrkToRosParameters read_trk_to_ros_parameters(const XmlRpcValue& tree, const std::string& camera_name) {
   std::vector<std::string> faults;
   ParameterReader node(tree, "~", faults);
-  // diagnostic_updater's own: seconds between diagnostics.
-  if (const auto period = node.number("diagnostic_period"); period && !(*period > 0)) {
-    faults.push_back("~diagnostic_period = " + std::to_string(*period) + ": must be more than 0 seconds");
-  }
+  check_diagnostic_period(node, faults);
   TrkToRosParameters parameters;
   take(node.number("field_rate"), parameters.field_rate);
   take(node.text("stamp"), parameters.stamp);

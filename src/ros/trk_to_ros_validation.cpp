@@ -1,8 +1,7 @@
-#include <cctype>
 #include <cmath>
 #include <set>
 
-#include "trk_bridge/camera/camera.h"
+#include "faults.h"
 #include "trk_bridge/ros/trk_to_ros_parameters.h"
 #include "trk_bridge/transport/endpoint.h"
 #include "trk_bridge/wire/format.h"
@@ -10,48 +9,13 @@
 namespace trk_bridge::ros1 {
 namespace {
 
-/// Collects faults under the keys a user wrote.
-class Faults {
- public:
-  explicit Faults(std::string path) : path_(std::move(path)) {}
-
-  void add(const std::string& key, const std::string& value, const std::string& allowed) {
-    lines.push_back(path_ + key + " = " + value + ": " + allowed);
-  }
-
-  std::vector<std::string> lines;
-
- private:
-  std::string path_;
-};
-
-std::string quoted(const std::string& text) { return '\'' + text + '\''; }
-
-bool is_base_name(const std::string& name) {
-  if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0) return false;
-  for (const char c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') return false;
-  }
-  return true;
-}
-
-bool is_frame(const std::string& frame) {
-  if (frame.empty() || frame[0] == '/') return false;
-  for (const char c : frame) {
-    if (std::isspace(static_cast<unsigned char>(c)) != 0) return false;
-  }
-  return true;
-}
-
 void check_frames(const CameraParameters& camera, Faults& faults) {
   const std::pair<const char*, const std::string*> frames[] = {{"studio_frame", &camera.studio_frame},
                                                                {"camera_frame", &camera.camera_frame},
                                                                {"optical_frame", &camera.optical_frame}};
   std::set<std::string> seen;
   for (const auto& [key, frame] : frames) {
-    if (!is_frame(*frame)) {
-      faults.add(key, quoted(*frame), "must be a tf frame: not empty, no leading slash, no white space");
-    } else if (!seen.insert(*frame).second) {
+    if (check_frame(key, *frame, faults) && !seen.insert(*frame).second) {
       faults.add(key, quoted(*frame), "must differ from the camera's other frames");
     }
   }
@@ -65,9 +29,7 @@ void check_format(const CameraParameters& camera, Faults& faults) {
 }
 
 void check_camera(const CameraParameters& camera, Faults& faults) {
-  if (!is_base_name(camera.name)) {
-    faults.add("name", quoted(camera.name), "a camera's name must begin with a letter, then letters, digits and _");
-  }
+  check_name(camera.name, faults);
   if (camera.source.empty()) {
     faults.add("source", "''", "must be given: an endpoint URL such as udp://:7000, shm:7 or file:take.trk");
   } else if (const auto endpoint = transport::parse_endpoint(camera.source, transport::Direction::read); !endpoint) {
@@ -78,11 +40,7 @@ void check_camera(const CameraParameters& camera, Faults& faults) {
   if (!std::isfinite(camera.delay) || camera.delay < 0 || camera.delay > 60) {
     faults.add("delay", std::to_string(camera.delay), "must be 0 to 60 seconds");
   }
-  if (camera.constants) {
-    if (const auto sound = camera::check(*camera.constants); !sound) {
-      faults.add("constants", "{…}", camera::describe(sound.error()));
-    }
-  }
+  if (camera.constants) check_constants(*camera.constants, faults);
 }
 
 /// Whether both name one UDP port that only one of them could bind.
@@ -138,9 +96,7 @@ std::vector<std::string> validate(const TrkToRosParameters& parameters) {
   } else if (parameters.stamp != "arrival") {
     node.add("stamp", quoted(parameters.stamp), "must be arrival");
   }
-  if (parameters.queue_size < 1 || parameters.queue_size > 100000) {
-    node.add("queue_size", std::to_string(parameters.queue_size), "must be 1 to 100000");
-  }
+  check_queue_size(parameters.queue_size, node);
   std::vector<std::string> lines = std::move(node.lines);
   for (auto camera = parameters.cameras.begin(); camera != parameters.cameras.end(); ++camera) {
     Faults faults(parameters.several ? "~cameras/" + camera->name + "/" : "~");

@@ -9,6 +9,7 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
 #include "trk_bridge/ros/camera_pipeline.h"
+#include "trk_bridge/ros/finding.h"
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/fault.h"
 
@@ -30,39 +31,6 @@ struct CameraReport {
   ReaderStatistics reader;
   CameraStatistics camera;
   std::int64_t time = 0;  ///< steady clock, ns
-};
-
-/// Something to tell a person. What it is about, for telling it once in the log.
-enum class Condition : std::uint8_t {
-  receiving,
-  waiting,
-  ended,
-  failed,
-  nothing_valid,
-  only_refused,
-  other_ids_only,
-  constants_only,
-  nothing_new,
-  counter_stands,
-  lost,
-  malformed,
-  refused,
-  kernel_drops,
-  unknown_ids,
-  several_ids,
-  dropped,
-  unstampable,
-  no_constants,
-  bad_constants,
-  withheld,
-  no_camera_info,
-  stamps_held,
-};
-
-struct Finding {
-  Condition condition;
-  std::uint8_t level;  ///< of diagnostic_msgs::DiagnosticStatus
-  std::string text;
 };
 
 /// What `now` tells, the state first and then what has gone wrong since `before` (the look before it; of counters, only

@@ -28,6 +28,8 @@ class ParameterReader {
 
   /// The value, or none when the key is not given or its type is wrong (a fault).
   std::optional<std::string> text(const std::string& key);
+  /// A list of texts; one text is a list of one.
+  std::optional<std::vector<std::string>> texts(const std::string& key);
   std::optional<double> number(const std::string& key);  ///< integers are numbers, too
   std::optional<int> integer(const std::string& key);
   std::optional<bool> flag(const std::string& key);

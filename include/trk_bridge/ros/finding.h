@@ -1,0 +1,59 @@
+// Something to tell a person of a node: what it is about, how bad it is, and the words.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+
+namespace trk_bridge::ros1 {
+
+/// What a finding is about, for telling it once in the log.
+enum class Condition : std::uint8_t {
+  // of trk_to_ros
+  receiving,
+  waiting,
+  ended,
+  failed,
+  nothing_valid,
+  only_refused,
+  other_ids_only,
+  constants_only,
+  nothing_new,
+  counter_stands,
+  lost,
+  malformed,
+  refused,
+  kernel_drops,
+  unknown_ids,
+  several_ids,
+  dropped,
+  unstampable,
+  no_constants,
+  bad_constants,
+  withheld,
+  no_camera_info,
+  stamps_held,
+  // of ros_to_trk, which shares some of those above
+  sending,
+  id_left_out,
+  bad_camera_info,
+  tangential_lost,
+  lens_inexact,
+  rows_disagree,
+  bad_lens,
+  sink_fails,
+  sink_loses,
+};
+
+struct Finding {
+  Condition condition;
+  std::uint8_t level;  ///< of diagnostic_msgs::DiagnosticStatus
+  std::string text;
+};
+
+/// The worst level and all texts, joined.
+void summarize(const std::vector<Finding>& found, diagnostic_updater::DiagnosticStatusWrapper& status);
+
+}  // namespace trk_bridge::ros1

@@ -1,0 +1,30 @@
+#include "finding_log.h"
+
+#include <algorithm>
+
+#include <ros/console.h>
+
+namespace trk_bridge::nodes {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+void FindingLog::tell(const std::vector<trk_bridge::ros1::Finding>& found) {
+  for (const auto& finding : found) {
+    if (std::find(told_.begin(), told_.end(), finding.condition) != told_.end()) continue;
+    told_.push_back(finding.condition);
+    const std::string line = subject_ + ": " + finding.text;
+    switch (finding.level) {
+      case DiagnosticStatus::ERROR:
+        ROS_ERROR_STREAM(line);
+        break;
+      case DiagnosticStatus::WARN:
+        ROS_WARN_STREAM(line << " (told once, then counted in the diagnostics)");
+        break;
+      default:
+        ROS_INFO_STREAM(line);
+        break;
+    }
+  }
+}
+
+}  // namespace trk_bridge::nodes

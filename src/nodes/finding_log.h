@@ -1,0 +1,25 @@
+// The log's share of the diagnostics: every kind of finding once.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trk_bridge/ros/finding.h"
+
+namespace trk_bridge::nodes {
+
+/// One thread at a time.
+class FindingLog {
+ public:
+  /// Lines begin with `subject`.
+  explicit FindingLog(std::string subject) : subject_(std::move(subject)) {}
+
+  /// Logs findings of a kind that was not met before.
+  void tell(const std::vector<trk_bridge::ros1::Finding>&);
+
+ private:
+  std::string subject_;
+  std::vector<trk_bridge::ros1::Condition> told_;
+};
+
+}  // namespace trk_bridge::nodes

@@ -1,0 +1,36 @@
+#include "ros_to_trk.h"
+
+#include "node_parameters.h"
+#include "params_input.h"
+#include "steady_time.h"
+#include "tf_input.h"
+
+namespace trk_bridge::nodes {
+
+RosToTrk::RosToTrk(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name)
+    : diagnostics_(node, private_node, name) {
+  const auto parameters = trk_bridge::ros1::read_ros_to_trk_parameters(private_parameters(private_node),
+                                                                       camera_name_of(node.getNamespace()));
+  for (const auto& url : parameters.sinks) sinks_.push_back(std::make_unique<SinkOutput>(url));
+  const auto write_all = [this](const trk_bridge::ros1::Outgoing& outgoing) { write(outgoing); };
+  if (parameters.input == "tf") {
+    input_ = std::make_unique<TfInput>(node, parameters, write_all);
+  } else {
+    input_ = std::make_unique<ParamsInput>(node, parameters, write_all);
+  }
+  diagnostics_.add(parameters.name,
+                   [this](diagnostic_updater::DiagnosticStatusWrapper& status) { input_->describe(status); });
+  for (const auto& sink : sinks_) {
+    diagnostics_.add(sink->url(), [one = sink.get()](diagnostic_updater::DiagnosticStatusWrapper& status) {
+      one->describe(status);
+    });
+  }
+  diagnostics_.start();
+}
+
+void RosToTrk::write(const trk_bridge::ros1::Outgoing& outgoing) {
+  const auto now = steady_now();
+  for (const auto& sink : sinks_) sink->write(outgoing, now);
+}
+
+}  // namespace trk_bridge::nodes

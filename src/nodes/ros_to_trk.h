@@ -1,0 +1,31 @@
+// ROS topics and tf to trk endpoints: what the node and the nodelet share.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+
+#include "node_diagnostics.h"
+#include "sink_output.h"
+#include "trk_input.h"
+
+namespace trk_bridge::nodes {
+
+/// Runs from construction to destruction. Diagnostics go out from the callback queue of `node`.
+class RosToTrk {
+ public:
+  /// Topics are in the namespace of `node`, parameters in that of `private_node`; `name` is the node's or nodelet's
+  /// full name. Throws ParameterError and TransportError.
+  RosToTrk(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name);
+
+ private:
+  void write(const trk_bridge::ros1::Outgoing&);
+
+  std::vector<std::unique_ptr<SinkOutput>> sinks_;
+  std::unique_ptr<TrkInput> input_;
+  NodeDiagnostics diagnostics_;
+};
+
+}  // namespace trk_bridge::nodes

@@ -1,0 +1,6 @@
+#include "node_main.h"
+#include "ros_to_trk.h"
+
+int main(int argc, char** argv) {
+  return trk_bridge::nodes::node_main<trk_bridge::nodes::RosToTrk>(argc, argv, "ros_to_trk");
+}

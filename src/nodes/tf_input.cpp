@@ -1,0 +1,108 @@
+#include "tf_input.h"
+
+#include "steady_time.h"
+
+namespace trk_bridge::nodes {
+namespace {
+
+::ros::TransportHints no_delay() { return ::ros::TransportHints().tcpNoDelay(); }
+
+}  // namespace
+
+TfInput::TfInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParameters& parameters, SetWriter write)
+    : write_(std::move(write)),
+      parameters_(parameters),
+      form_(trk_bridge::ros1::form_of(parameters)),
+      period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.rate))),
+      listener_(transforms_, node, /*spin_thread=*/true, no_delay()),
+      converter_(parameters),
+      log_(parameters.name) {
+  last_report_.time = steady_now();
+  const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
+  camera_info_ = node.subscribe<sensor_msgs::CameraInfo>(
+      "camera_info", queue, [this](const sensor_msgs::CameraInfoConstPtr& message) { take(*message); },
+      ::ros::VoidConstPtr(), no_delay());
+  lens_ = node.subscribe<trk_bridge::CameraParams>(
+      "lens", queue,
+      [this](const trk_bridge::CameraParamsConstPtr& message) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        converter_.take_lens(*message);
+      },
+      ::ros::VoidConstPtr(), no_delay());
+  thread_ = std::thread([this] { run(); });
+}
+
+TfInput::~TfInput() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void TfInput::take(const sensor_msgs::CameraInfo& message) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    converter_.take(message, steady_now());
+  }
+  changed_.notify_all();
+}
+
+void TfInput::run() {
+  auto deadline = Clock::now();
+  for (;;) {
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      if (changed_.wait_until(lock, deadline, [this] { return stopping_; })) return;
+    }
+    look();
+    deadline += period_;
+    // Looks that were missed are left out: two at once would find the same pose.
+    if (const auto now = Clock::now(); deadline < now) deadline += (now - deadline) / period_ * period_ + period_;
+  }
+}
+
+TfInput::Pose TfInput::newest_pose() const {
+  try {
+    return transforms_.lookupTransform(parameters_.studio_frame, parameters_.camera_frame, ::ros::Time(0));
+  } catch (const tf2::TransformException& error) {
+    return tl::unexpected(std::string(error.what()));
+  }
+}
+
+void TfInput::look() {
+  const auto pose = newest_pose();
+  trk_bridge::ros1::Outgoing outgoing;
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    pose_fault_ = pose ? std::string() : pose.error();
+    if (!pose) return;
+    const auto& stamp = pose->header.stamp;
+    last_pose_ = static_cast<std::int64_t>(stamp.toNSec());
+    if (!converter_.is_new(stamp)) return;
+    // tf and camera_info of one moment come on connections of their own.
+    changed_.wait_for(lock, period_ / 4, [&] { return stopping_ || !converter_.expects_lens(stamp); });
+    if (stopping_) return;
+    outgoing = converter_.make(*pose, steady_now());
+  }
+  if (outgoing.params) write_(outgoing);
+}
+
+void TfInput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  trk_bridge::ros1::TfReport report;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    report.tf = converter_.statistics();
+    report.pose_fault = pose_fault_;
+    report.last_pose = last_pose_;
+  }
+  report.info_topic = camera_info_.getTopic();
+  report.time = steady_now();
+  const auto found = trk_bridge::ros1::findings(report, last_report_, parameters_.rate);
+  trk_bridge::ros1::fill(status, found, report, last_report_, form_);
+  log_.tell(found);
+  last_report_ = std::move(report);
+}
+
+}  // namespace trk_bridge::nodes

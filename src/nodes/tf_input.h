@@ -1,0 +1,66 @@
+// Sets from tf and the topics `camera_info` and `lens`.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+#include <trk_bridge/CameraParams.h>
+#include <tl/expected.hpp>
+
+#include "finding_log.h"
+#include "trk_bridge/ros/outgoing_diagnostics.h"
+#include "trk_bridge/ros/tf_to_trk.h"
+#include "trk_input.h"
+
+namespace trk_bridge::nodes {
+
+/// A thread of its own looks at tf at the rate of the parameters, by the steady clock and without drift, and writes a
+/// set when there is a newer pose.
+class TfInput : public TrkInput {
+ public:
+  /// Subscribes in the namespace of `node`. Parameters must have passed validate().
+  TfInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParameters&, SetWriter);
+  ~TfInput() override;
+
+  void describe(diagnostic_updater::DiagnosticStatusWrapper& status) override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Pose = tl::expected<geometry_msgs::TransformStamped, std::string>;
+
+  void run();
+  void look();
+  Pose newest_pose() const;
+  void take(const sensor_msgs::CameraInfo&);
+
+  SetWriter write_;
+  const trk_bridge::ros1::RosToTrkParameters parameters_;
+  const trk_bridge::ros1::OutgoingForm form_;
+  const Clock::duration period_;
+  tf2_ros::Buffer transforms_;
+  tf2_ros::TransformListener listener_;
+
+  mutable std::mutex mutex_;  // of all between here and the next comment
+  std::condition_variable changed_;
+  bool stopping_ = false;
+  trk_bridge::ros1::TfToTrk converter_;
+  std::string pose_fault_ = "not looked yet";
+  std::int64_t last_pose_ = 0;
+
+  // of the diagnostics
+  trk_bridge::ros1::TfReport last_report_;
+  FindingLog log_;
+
+  std::thread thread_;
+  ::ros::Subscriber camera_info_, lens_;
+};
+
+}  // namespace trk_bridge::nodes

@@ -1,0 +1,215 @@
+// trk to ROS and back is the same camera: through CameraParams, and through tf and CameraInfo.
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "../camera/random_cameras.h"
+#include "../camera/worked_cases.h"
+#include "trk_bridge/camera/image.h"
+#include "trk_bridge/ros/camera_pipeline.h"
+#include "trk_bridge/ros/params_to_trk.h"
+#include "trk_bridge/ros/tf_to_trk.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::ros1 {
+namespace {
+
+constexpr std::int64_t today = 1'700'000'000'000'000'000;
+
+/// A record, its constants and the camera that both mean.
+struct Case {
+  wire::CameraParams params;
+  wire::CameraConstants constants;
+  camera::Camera camera;
+};
+
+CameraParameters incoming_parameters(const std::string& format) {
+  CameraParameters p;
+  p.name = p.camera_frame = "crane1";
+  p.source = "memory:round_trip";
+  p.optical_frame = "crane1_optical";
+  p.format = format;
+  return p;
+}
+
+RosToTrkParameters outgoing_parameters(const Case& c) {
+  RosToTrkParameters p;
+  p.name = p.camera_frame = "crane1";
+  p.sinks = {"memory:round_trip"};
+  p.format = wire::format_to_words(c.params.format);
+  return p;
+}
+
+/// The messages of a case.
+class Incoming {
+ public:
+  Incoming(const Case& c, const std::string& format) : pipeline_(incoming_parameters(format), 50) {
+    transport::Sample sample;
+    sample.arrival = today;
+    sample.record = c.constants;
+    (void)pipeline_.process(sample, 0);
+    sample.record = c.params;
+    made = pipeline_.process(sample, 0);
+  }
+  const CameraPipeline* operator->() const { return &pipeline_; }
+
+  PipelineOutput made;
+
+ private:
+  CameraPipeline pipeline_;
+};
+
+void expect_near(double value, double wanted) { EXPECT_NEAR(value, wanted, 1e-9 * (1 + std::abs(wanted))); }
+
+void expect_same_to_the_digits(const camera::Camera& camera, const camera::Camera& wanted) {
+  for (int i = 0; i < 16; ++i) expect_near(camera.pose.matrix().data()[i], wanted.pose.matrix().data()[i]);
+  EXPECT_NEAR(camera.lens.image_distance, wanted.lens.image_distance, 1e-9 * wanted.lens.image_distance);
+  expect_near(camera.lens.center_shift.x(), wanted.lens.center_shift.x());
+  expect_near(camera.lens.center_shift.y(), wanted.lens.center_shift.y());
+  EXPECT_EQ(camera.lens.k1, wanted.lens.k1);
+  EXPECT_EQ(camera.lens.k2, wanted.lens.k2);
+  EXPECT_EQ(camera.lens.focdist, wanted.lens.focdist);
+  EXPECT_EQ(camera.lens.aperture, wanted.lens.aperture);
+}
+
+void expect_same_through_params(const Case& c, const std::string& published_format) {
+  const Incoming incoming(c, published_format);
+  ASSERT_TRUE(incoming.made.params);
+  ParamsToTrk outgoing(outgoing_parameters(c));
+  outgoing.take(incoming->constants());
+  const auto made = outgoing.take(incoming->params(), 0);
+  ASSERT_TRUE(made.params && made.constants);
+  EXPECT_EQ(wire::format_to_words(made.params->format), wire::format_to_words(c.params.format));
+  EXPECT_EQ(made.params->counter, c.params.counter);
+  EXPECT_EQ(made.params->id, c.params.id);
+  const auto camera = camera::decode(*made.params, &*made.constants);
+  ASSERT_TRUE(camera);
+  expect_same_to_the_digits(*camera, c.camera);
+}
+
+/// The farthest that any pixel of a grid over the image is from where it was.
+double worst_pixel(const camera::Lens& lens, const camera::Lens& wanted, const wire::CameraConstants& constants) {
+  constexpr int steps = 8;
+  const auto raster = camera::raster_of(constants);
+  double worst = 0;
+  for (int row = 0; row <= steps; ++row) {
+    for (int column = 0; column <= steps; ++column) {
+      const Eigen::Vector2d pixel(raster.width * column / steps - 0.5, raster.height * row / steps - 0.5);
+      const Eigen::Vector2d pinhole = camera::undistort(wanted, camera::to_chip(raster, pixel));
+      const Eigen::Vector2d ray = (pinhole + wanted.center_shift) / wanted.image_distance;
+      const auto chip = camera::distort(lens, ray * lens.image_distance - lens.center_shift);
+      if (!chip) return std::numeric_limits<double>::infinity();
+      worst = std::max(worst, (camera::to_pixel(raster, *chip) - pixel).norm());
+    }
+  }
+  return worst;
+}
+
+void expect_same_through_tf(const Case& c) {
+  const Incoming incoming(c, "euler");
+  ASSERT_TRUE(incoming.made.transform);
+  ASSERT_TRUE(incoming.made.camera_info);
+  auto parameters = outgoing_parameters(c);
+  parameters.input = "tf";
+  parameters.chip_width = c.constants.chip_width;
+  parameters.chip_height = c.constants.chip_height;
+  parameters.blank_left = c.constants.blank_left;
+  parameters.blank_right = c.constants.blank_right;
+  parameters.blank_top = c.constants.blank_top;
+  parameters.blank_bottom = c.constants.blank_bottom;
+  ASSERT_TRUE(validate(parameters).empty());
+  TfToTrk outgoing(parameters);
+  outgoing.take(incoming->camera_info(), 0);
+  const auto made = outgoing.make(incoming->transform(), 0);
+  ASSERT_TRUE(made.params && made.constants);
+  EXPECT_EQ(wire::format_to_words(made.params->format), wire::format_to_words(c.params.format));
+  const auto camera = camera::decode(*made.params, &*made.constants);
+  ASSERT_TRUE(camera);
+  EXPECT_LT((camera->pose.translation() - c.camera.pose.translation()).norm(), 1e-6);
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(camera->pose.linear().transpose() * c.camera.pose.linear()));
+  EXPECT_LT(std::abs(turn.angle()), 1e-6);
+  EXPECT_LT(worst_pixel(camera->lens, c.camera.lens, c.constants), 0.02);
+}
+
+std::vector<Case> worked() {
+  std::vector<Case> cases;
+  for (const auto& one : test::worked_cases()) cases.push_back({one.params, one.constants, one.camera});
+  return cases;
+}
+
+/// Cameras whose lens leaves a picture: up to a tenth of barrel or pincushion by each of k1 and k2.
+class RandomCases {
+ public:
+  Case next() {
+    Case c;
+    c.camera = random_.camera();
+    c.constants = random_.constants();
+    const double reach = camera::image_reach(c.camera.lens, camera::raster_of(c.constants));
+    c.camera.lens.k1 = random_.between(-0.1, 0.1) / (reach * reach);
+    c.camera.lens.k2 = random_.between(-0.1, 0.1) / (reach * reach * reach * reach);
+    const auto& masks = masks_;
+    const std::uint32_t format = masks[made_ % masks.size()];
+    c.constants = camera::constants_for(c.constants, format);
+    c.params = camera::encode(c.camera, format, &c.constants).value();
+    c.params.counter = ++made_;
+    return c;
+  }
+
+ private:
+  test::RandomCameras random_;
+  const std::vector<std::uint32_t> masks_ = test::meaningful_masks();
+  std::uint64_t made_ = 0;
+};
+
+constexpr int random_count = 10'000;
+
+TEST(RoundTrip, EveryWorkedCaseThroughParams) {
+  for (const auto& c : worked()) {
+    SCOPED_TRACE(wire::format_to_words(c.params.format));
+    ASSERT_NO_FATAL_FAILURE(expect_same_through_params(c, "euler"));
+    ASSERT_NO_FATAL_FAILURE(expect_same_through_params(c, "studio_to_camera camera_y_up field_of_view diagonal"));
+  }
+}
+
+TEST(RoundTrip, EveryWorkedCaseThroughTfAndCameraInfo) {
+  for (const auto& c : worked()) {
+    SCOPED_TRACE(wire::format_to_words(c.params.format));
+    ASSERT_NO_FATAL_FAILURE(expect_same_through_tf(c));
+  }
+}
+
+TEST(RoundTrip, AsReceivedIsTheVerySameRecord) {
+  for (const auto& c : worked()) {
+    const Incoming incoming(c, as_received);
+    ParamsToTrk outgoing(outgoing_parameters(c));
+    outgoing.take(incoming->constants());
+    const auto made = outgoing.take(incoming->params(), 0);
+    ASSERT_TRUE(made.params && made.constants);
+    // Words do not tell options that do not count, such as the axes of a matrix that is not there.
+    auto wanted = c.params;
+    wanted.format = made.params->format;
+    EXPECT_EQ(*made.params, wanted);
+  }
+}
+
+TEST(RoundTrip, RandomCamerasThroughParams) {
+  RandomCases random;
+  for (int i = 0; i < random_count && !HasFailure(); ++i) {
+    const auto c = random.next();
+    SCOPED_TRACE(i);
+    ASSERT_NO_FATAL_FAILURE(expect_same_through_params(c, "euler"));
+  }
+}
+
+TEST(RoundTrip, RandomCamerasThroughTfAndCameraInfo) {
+  RandomCases random;
+  for (int i = 0; i < random_count && !HasFailure(); ++i) {
+    const auto c = random.next();
+    SCOPED_TRACE(i);
+    ASSERT_NO_FATAL_FAILURE(expect_same_through_tf(c));
+  }
+}
+
+}  // namespace
+}  // namespace trk_bridge::ros1
