@@ -12,6 +12,11 @@ find_package(catkin REQUIRED COMPONENTS
   tf2_ros
   xmlrpcpp
 )
+# For trk bag alone; nodes do without.
+find_package(rosbag_storage REQUIRED)
+find_package(roslz4 REQUIRED)
+find_package(tf2 REQUIRED)
+find_package(BZip2 REQUIRED)
 
 add_message_files(DIRECTORY msg FILES CameraConstants.msg CameraParams.msg)
 generate_messages(DEPENDENCIES std_msgs)

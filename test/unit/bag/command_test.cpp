@@ -1,0 +1,95 @@
+// trk bag as its users run it.
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.h"
+#include "start_time.h"
+#include "temporary_directory.h"
+#include "vectors.h"
+
+namespace trk_bridge::tools {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class BagCommandTest : public testing::Test {
+ protected:
+  int run(std::vector<std::string> words) {
+    words.insert(words.begin(), {TRK_TOOL, "bag"});
+    test::Program program(words);
+    said = program.rest_of_err();
+    program.rest_of_out();
+    return program.wait();
+  }
+
+  test::TemporaryDirectory directory;
+  const std::string take = test::data_path("field/takes/euler.trk");
+  const std::string bag = directory / "take.bag";
+  std::string said;
+};
+
+TEST_F(BagCommandTest, GoesBothWays) {
+  EXPECT_EQ(run({take, bag, "--camera", "crane1", "--date", "2026-11-22"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("2259 fields of camera crane1"));
+  EXPECT_EQ(run({bag, directory / "back.trk"}), 0) << said;
+  EXPECT_THAT(said, HasSubstr("2259 fields of /crane1/params, from 03:13:51:00:1 at 50 fields a second"));
+  EXPECT_THAT(test::read_text(directory / "back.trk"), StartsWith("DMC01\n"));
+}
+
+TEST_F(BagCommandTest, ExistingTargetsNeedOverwrite) {
+  test::write_text(bag, "precious");
+  EXPECT_EQ(run({take, bag}), 1);
+  EXPECT_THAT(said, HasSubstr("--overwrite"));
+  EXPECT_EQ(test::read_text(bag), "precious");
+  EXPECT_EQ(run({take, bag, "--overwrite"}), 0) << said;
+  test::write_text(directory / "back.trk", "precious");
+  EXPECT_EQ(run({bag, directory / "back.trk"}), 1);
+  EXPECT_EQ(test::read_text(directory / "back.trk"), "precious");
+}
+
+TEST_F(BagCommandTest, WrongOptionsAreUsageErrors) {
+  EXPECT_EQ(run({take, bag, "--input", "tf"}), 2);
+  EXPECT_THAT(said, HasSubstr("--input is for the way from a bag to a take"));
+  EXPECT_EQ(run({take, bag, "--date", "yesterday"}), 2);
+  EXPECT_THAT(said, HasSubstr("\"yesterday\" is no date: YYYY-MM-DD"));
+  EXPECT_EQ(run({take, bag, "--start", "now"}), 2);
+  EXPECT_EQ(run({take, bag, "--field-rate", "0"}), 2);
+  EXPECT_EQ(run({take, directory / "other.trk"}), 2);
+  EXPECT_THAT(said, HasSubstr("the name of a bag ends in .bag"));
+  EXPECT_EQ(run({bag, directory / "other.bag"}), 2);
+  EXPECT_EQ(run({bag, directory / "other.trk", "--start", "5"}), 2);
+}
+
+TEST_F(BagCommandTest, WhatCannotBeReadIsNamed) {
+  EXPECT_EQ(run({directory / "none.trk", bag}), 1);
+  EXPECT_THAT(said, HasSubstr("none.trk"));
+  EXPECT_EQ(run({directory / "none.bag", directory / "x.trk"}), 1);
+  EXPECT_THAT(said, HasSubstr("No such file"));
+}
+
+TEST(Moments, AreReadToTheNanosecond) {
+  EXPECT_EQ(parse_date("1970-01-02"), 86'400'000'000'000);
+  EXPECT_EQ(parse_date("2026-11-22"), 1'795'305'600'000'000'000);
+  EXPECT_EQ(parse_moment("1700000000.123456789"), 1'700'000'000'123'456'789);
+  EXPECT_EQ(parse_moment("5"), 5'000'000'000);
+  EXPECT_EQ(parse_moment("2026-11-22T10:20:30.5Z"), 1'795'305'600'000'000'000 + 37'230'500'000'000);
+  EXPECT_EQ(parse_moment("2026-11-22T10:20:30"), 1'795'305'600'000'000'000 + 37'230'000'000'000);
+}
+
+TEST(Moments, AreRefusedWhenTheyAreNone) {
+  for (const char* text :
+       {"", "0", "-1", "1.", ".5", "1.0000000001", "1e9", "4294967296", "2026-11-22T", "2026-11-22T24:00:00",
+        "2026-11-22T10:60:00", "2026-11-22T10:20", "2026-02-30T10:20:30", "tomorrow", "12 "}) {
+    EXPECT_FALSE(parse_moment(text)) << text;
+  }
+  for (const char* text : {"", "2026", "2026-13-01", "2026-02-30", "1969-12-31", "2026-11-22&rate=50", "2026-11-22 "}) {
+    EXPECT_FALSE(parse_date(text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace trk_bridge::tools

@@ -1,0 +1,114 @@
+// Bags and takes in a directory of their own.
+#pragma once
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ros/time.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include "bag_take.h"
+#include "temporary_directory.h"
+#include "trk_bridge/transport/take_file.h"
+#include "trk_bridge/wire/codec.h"
+#include "vectors.h"
+
+namespace trk_bridge::tools {
+
+/// A record's bytes, so that equal means equal bit for bit.
+template <typename RecordType>
+std::string bits(const RecordType& record) {
+  wire::Buffer buffer;
+  return std::string(wire::to_image(record, {wire::Generation::identified, wire::Abi::lp64, {}}, buffer).value());
+}
+
+inline std::vector<std::string> bits_of(const std::vector<wire::CameraParams>& params) {
+  std::vector<std::string> all;
+  for (const auto& one : params) all.push_back(bits(one));
+  return all;
+}
+
+inline wire::CameraParams some_params(std::uint64_t counter, std::uint32_t id = 0) {
+  wire::CameraParams params;
+  params.id = id;
+  params.format = 1;
+  params.euler = {1.0 / 3.0, -2, 1.5 + 0.001 * static_cast<double>(counter), 179.99999, 5, 6};
+  params.fov = 7.7;
+  params.k1 = 1e-3;
+  params.focdist = 2.5;
+  params.aperture = 4;
+  params.counter = counter;
+  return params;
+}
+
+inline wire::CameraConstants some_constants(std::uint32_t id = 0) {
+  return {id, 1920, 1080, 0, 0, 0, 0, 9.59, 5.39, 9.59, 5.39};
+}
+
+class BagTest : public ::testing::Test {
+ protected:
+  std::string take_of(const std::vector<wire::CameraParams>& params, const std::string& name = "made.trk",
+                      const transport::TimeCode& code = {10, 20, 30, 12, 1}) {
+    const std::string path = directory / name;
+    transport::TakeWriter writer(path, code, /*overwrite=*/true);
+    EXPECT_TRUE(writer.write(some_constants(params.empty() ? 0 : params.front().id)));
+    for (const auto& one : params) EXPECT_TRUE(writer.write(one));
+    EXPECT_TRUE(writer.close());
+    return path;
+  }
+
+  std::vector<wire::CameraParams> some_fields(std::uint64_t count, std::uint32_t id = 0) {
+    std::vector<wire::CameraParams> fields;
+    for (std::uint64_t i = 0; i < count; ++i) fields.push_back(some_params(1000 + i, id));
+    return fields;
+  }
+
+  std::string to_bag(const std::string& take, const TakeToBagOptions& options = {}, const std::string& name = "a.bag") {
+    bag_of_take(take, directory / name, options, run, err);
+    return directory / name;
+  }
+  transport::Take to_take(const std::string& bag, BagToTakeOptions options = {}) {
+    options.overwrite = true;
+    take_of_bag(bag, directory / "back.trk", options, run, err);
+    return transport::read_take(directory / "back.trk");
+  }
+  std::string refusal(const std::string& bag, const BagToTakeOptions& options = {}) {
+    try {
+      take_of_bag(bag, directory / "refused.trk", options, run, err);
+    } catch (const std::runtime_error& error) {
+      EXPECT_FALSE(std::filesystem::exists(directory / "refused.trk"));
+      EXPECT_FALSE(std::filesystem::exists(directory / "refused.trk.part"));
+      return error.what();
+    }
+    return "no error";
+  }
+
+  test::TemporaryDirectory directory;
+  std::ostringstream err;
+  LongRun run{err, /*is_terminal=*/false};
+};
+
+/// A bag as somebody else writes it.
+class SomeBag {
+ public:
+  explicit SomeBag(std::string path) : path_(std::move(path)) { bag_.open(path_, rosbag::bagmode::Write); }
+  template <typename Message>
+  void put(const std::string& topic, double seconds, const Message& message) {
+    bag_.write(topic, ::ros::Time(seconds), message);
+  }
+  const std::string& closed() {
+    bag_.close();
+    return path_;
+  }
+
+ private:
+  std::string path_;
+  rosbag::Bag bag_;
+};
+
+}  // namespace trk_bridge::tools

@@ -1,0 +1,189 @@
+// Takes out of recordings of tf and camera_info.
+#include <cmath>
+
+#include <sensor_msgs/CameraInfo.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "fixture.h"
+#include "trk_bridge/camera/calibration.h"
+#include "trk_bridge/camera/camera.h"
+#include "trk_bridge/ros/frames.h"
+
+namespace trk_bridge::tools {
+namespace {
+
+using testing::HasSubstr;
+
+double degrees_apart(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
+
+/// A crane: the column turns, the head sits on a fixed arm, the camera looks where the head does.
+class FromTf : public BagTest {
+ protected:
+  void put_tf(double stamp, double pan_degrees) {
+    put(stamp, "studio", "column", Eigen::Vector3d::Zero(), pan_degrees, "/tf");
+  }
+  void put_arm() {
+    put(99, "column", "head", {0, 2, 1.5}, 0, "/tf_static");
+    tf2_msgs::TFMessage message;
+    auto& transform = message.transforms.emplace_back();
+    transform.header.stamp = ::ros::Time(99.0);
+    transform.header.frame_id = "head";
+    transform.child_frame_id = "lens_optical";
+    transform.transform = ros1::to_transform(ros1::camera_T_optical());
+    bag.put("/tf_static", 99, message);
+  }
+  void put_info(double stamp, const std::string& model = "plumb_bob") {
+    sensor_msgs::CameraInfo info;
+    info.header.stamp = ::ros::Time(stamp);
+    info.header.frame_id = "lens_optical";
+    info.width = 1920;
+    info.height = 1080;
+    // 1920 pixels on 9.59 mm, 1080 on 5.39 mm.
+    const double mx = 1920 / 9.59;
+    const double my = 1080 / 5.39;
+    info.K = {mx * 8, 0, 959.5, 0, my * 8, 539.5, 0, 0, 1};
+    info.distortion_model = model;
+    info.D = {0, 0, 0, 0, 0};
+    bag.put("/cam/camera_info", stamp, info);
+  }
+  static BagToTakeOptions with_chip() {
+    BagToTakeOptions options;
+    options.chip_width = 9.59;
+    options.chip_height = 5.39;
+    return options;
+  }
+
+  SomeBag bag{directory / "some.bag"};
+
+ private:
+  void put(double stamp, const std::string& parent, const std::string& child, const Eigen::Vector3d& at,
+           double pan_degrees, const std::string& topic) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = camera::rotation_of({pan_degrees, 0, 0});
+    pose.translation() = at;
+    tf2_msgs::TFMessage message;
+    auto& transform = message.transforms.emplace_back();
+    transform.header.stamp = ::ros::Time(stamp);
+    transform.header.frame_id = parent;
+    transform.child_frame_id = child;
+    transform.transform = ros1::to_transform(pose);
+    bag.put(topic, stamp, message);
+  }
+};
+
+TEST_F(FromTf, PosesAreComposedAndInterpolatedAtTheStampsOfCameraInfo) {
+  put_arm();
+  put_tf(100.0, 0);
+  put_tf(100.2, 20);
+  put_info(100.04);
+  put_info(100.06);
+  const auto take = to_take(bag.closed(), with_chip());
+  ASSERT_EQ(take.params.size(), 2u);
+  EXPECT_EQ(to_string(take.time_code), "00:01:40:01:1");
+  for (int i = 0; i < 2; ++i) {
+    const auto& e = take.params[static_cast<std::size_t>(i)].euler;
+    const double pan = 4 + 2 * i;
+    EXPECT_NEAR(e.pan, pan, 1e-6);
+    EXPECT_NEAR(e.x, -2 * std::sin(pan * M_PI / 180), 1e-9);
+    EXPECT_NEAR(e.y, 2 * std::cos(pan * M_PI / 180), 1e-9);
+    EXPECT_NEAR(e.z, 1.5, 1e-9);
+    EXPECT_NEAR(e.tilt, 0, 1e-6);
+    EXPECT_NEAR(take.params[static_cast<std::size_t>(i)].fov, 8, 1e-9);
+    EXPECT_EQ(take.params[static_cast<std::size_t>(i)].counter, static_cast<std::uint64_t>(i + 1));
+  }
+  EXPECT_EQ(take.constants.image_width, 1920);
+  EXPECT_EQ(take.constants.chip_width, 9.59);
+}
+
+TEST_F(FromTf, AFrameOfTheCamerasOwnAxesCanBeNamed) {
+  put_arm();
+  put_tf(100.0, 30);
+  put_tf(100.2, 30);
+  put_info(100.1);
+  auto options = with_chip();
+  options.camera_frame = "head";
+  const auto path = bag.closed();
+  EXPECT_NEAR(to_take(path, options).params.at(0).euler.pan, 30, 1e-9);
+  options.camera_frame = "lens_optical";
+  options.camera_frame_is_optical = true;
+  EXPECT_NEAR(to_take(path, options).params.at(0).euler.pan, 30, 1e-9);
+  options.studio_frame = "stage";
+  EXPECT_THAT(refusal(path, options), HasSubstr("no field is left"));
+  EXPECT_THAT(err.str(), HasSubstr("stage"));
+}
+
+TEST_F(FromTf, FieldsWithoutTransformsAroundThemAreLeftOut) {
+  put_arm();
+  put_info(99.5);
+  put_tf(100.0, 0);
+  put_tf(100.2, 20);
+  put_info(100.1);
+  put_info(100.3);
+  EXPECT_EQ(to_take(bag.closed(), with_chip()).params.size(), 1u);
+  EXPECT_THAT(err.str(), HasSubstr("left out: 2 fields, the first at 99.500000000: no transforms around its time"));
+}
+
+TEST_F(FromTf, WithoutConstantsTheChipHasToBeSaid) {
+  put_arm();
+  put_tf(100.0, 0);
+  put_tf(100.2, 0);
+  put_info(100.1);
+  EXPECT_THAT(refusal(bag.closed()), HasSubstr("say --chip-width MM and --chip-height MM"));
+}
+
+TEST_F(FromTf, AModelThatTrkCannotTellIsNamed) {
+  put_arm();
+  put_tf(100.0, 0);
+  put_tf(100.2, 0);
+  put_info(100.1, "equidistant");
+  EXPECT_THAT(refusal(bag.closed(), with_chip()), HasSubstr("no field is left"));
+  EXPECT_THAT(err.str(), HasSubstr("distortion model equidistant"));
+}
+
+TEST_F(FromTf, WithoutAnyTfThePoseIsNotKnown) {
+  put_info(100);
+  EXPECT_THAT(refusal(bag.closed(), with_chip()), HasSubstr("neither /tf nor /tf_static"));
+}
+
+TEST_F(FromTf, ALongRecordingStartsAndEndsAsItWas) {
+  put_arm();
+  for (int i = 0; i <= 3000; ++i) put_tf(1000 + 0.02 * i, 0.1 * i);
+  for (int i = 0; i < 3000; ++i) put_info(1000.01 + 0.02 * i);
+  const auto take = to_take(bag.closed(), with_chip());
+  ASSERT_EQ(take.params.size(), 3000u);
+  for (std::size_t i = 0; i < take.params.size(); ++i) {
+    ASSERT_LT(degrees_apart(take.params[i].euler.pan, 0.1 * static_cast<double>(i) + 0.05), 1e-5) << i;
+  }
+}
+
+/// The worked takes of the field, through tf and camera_info.
+class TakeThroughTf : public BagTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(TakeThroughTf, IsTheSameCamera) {
+  const auto path = test::data_path(GetParam());
+  const auto sent = transport::read_take(path);
+  const auto bag_path = to_bag(path);
+  BagToTakeOptions options;
+  options.input = BagInput::tf;
+  const auto back = to_take(bag_path, options);
+  EXPECT_EQ(back.time_code, sent.time_code);
+  ASSERT_EQ(back.params.size(), sent.params.size());
+  for (std::size_t i = 0; i < sent.params.size(); ++i) {
+    const auto a = camera::decode(sent.params[i], &sent.constants).value();
+    const auto b = camera::decode(back.params[i], &back.constants).value();
+    ASSERT_LT((a.pose.translation() - b.pose.translation()).norm(), 1e-6) << i;
+    ASSERT_LT(Eigen::AngleAxisd(a.pose.linear().transpose() * b.pose.linear()).angle(), 1e-6) << i;
+    const auto k = camera::camera_matrix(a.lens, sent.constants);
+    const auto l = camera::camera_matrix(b.lens, back.constants);
+    for (std::size_t n = 0; n < 9; ++n) ASSERT_NEAR(k[n], l[n], 0.02) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(FieldTakes, TakeThroughTf,
+                         testing::Values("field/takes/euler.trk",
+                                         "field/takes/euler-ignore_blank-keep_aspect-field_of_view-vertical.trk",
+                                         "field/takes/matrix-studio_to_camera-camera_y_up-studio_y_up.trk"),
+                         [](const auto& test) { return "Take" + std::to_string(test.index); });
+
+}  // namespace
+}  // namespace trk_bridge::tools

@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+"""Reads a bag of trk with rosbag's Python library: read_by_python.py TRK TAKE."""
+import os
+import subprocess
+import sys
+import tempfile
+
+import rosbag
+
+
+def main(trk, take):
+    with tempfile.TemporaryDirectory() as directory:
+        for compression in ("none", "bz2", "lz4"):
+            path = os.path.join(directory, compression + ".bag")
+            subprocess.run([trk, "bag", take, path, "--camera", "crane1", "--compression", compression], check=True)
+            with rosbag.Bag(path) as bag:
+                check(bag, fields_in(take))
+
+
+def fields_in(take):
+    with open(take) as lines:
+        text = [line for line in lines if line.strip() and not line.startswith("#")]
+    return [line.split() for line in text[3:]]
+
+
+def check(bag, fields):
+    info = bag.get_type_and_topic_info()
+    counts = {topic: found.message_count for topic, found in info.topics.items()}
+    assert counts == {"/crane1/params": len(fields), "/crane1/constants": 1, "/crane1/camera_info": len(fields),
+                      "/tf": len(fields), "/tf_static": 1}, counts
+    seen = 0
+    for topic, message, time in bag.read_messages():
+        if topic == "/crane1/params":
+            assert message.header.stamp == time
+            assert message.x == float(fields[seen][1]), (seen, message.x)
+            assert message.counter == int(fields[seen][-1]), (seen, message.counter)
+            seen += 1
+        elif topic == "/tf_static":
+            assert message.transforms[0].child_frame_id == "crane1_optical"
+    assert seen == len(fields)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
