@@ -1,9 +1,8 @@
 #include "dump.h"
 
-#include <cerrno>
 #include <ostream>
-#include <system_error>
 
+#include "checked_output.h"
 #include "listen.h"
 #include "record_text.h"
 #include "tally.h"
@@ -17,14 +16,9 @@ class Dump final : public Listener {
 
   bool on_sample(const transport::Sample& sample) override {
     tally_.add(sample);
-    errno = 0;
-    if (options_.json) {
-      out_ << json_.of(sample) << '\n';
-    } else {
-      out_ << plain_line(sample) << '\n';
-    }
-    if (options_.flush_each) out_.flush();
-    return note_output_error() && ++printed_ != options_.count;
+    const bool is_written = options_.json ? out_.line(json_.of(sample), options_.flush_each)
+                                          : out_.line(plain_line(sample), options_.flush_each);
+    return is_written && ++printed_ != options_.count;
   }
 
   void on_malformed(const transport::Reception& reception) override {
@@ -33,16 +27,9 @@ class Dump final : public Listener {
   }
 
   ExitCode finish(const transport::SourceStatistics& source, Ending ending) {
-    if (output_error_ == 0) {
-      errno = 0;
-      out_.flush();
-      note_output_error();
-    }
+    const ExitCode written = out_.finish(err_);
     tally_.summarise(source, err_);
-    if (output_error_ != 0 && output_error_ != EPIPE) {
-      err_ << "trk: error: standard output: " << std::generic_category().message(output_error_) << '\n';
-      return exit_failed;
-    }
+    if (written != exit_good) return written;
     if (ending == Ending::failed) {
       err_ << "trk: error: " << source.error << '\n';
       return exit_failed;
@@ -51,19 +38,12 @@ class Dump final : public Listener {
   }
 
  private:
-  bool note_output_error() {
-    if (out_) return true;
-    output_error_ = errno != 0 ? errno : EIO;
-    return false;
-  }
-
   const DumpOptions options_;
-  std::ostream& out_;
+  CheckedOutput out_;
   std::ostream& err_;
   JsonLine json_;
   Tally tally_;
   std::uint64_t printed_ = 0;
-  int output_error_ = 0;
 };
 
 }  // namespace

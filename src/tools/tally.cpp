@@ -11,11 +11,11 @@ bool Tally::Less::operator()(const Key& a, const Key& b) const noexcept {
          std::tie(b.id, b.sender.kind, b.sender.address, b.sender.number);
 }
 
-void Tally::add(const transport::Sample& sample) {
+std::optional<transport::Order> Tally::add(const transport::Sample& sample) {
   const auto* params = std::get_if<wire::CameraParams>(&sample.record);
   if (params == nullptr) {
     ++constants_;
-    return;
+    return std::nullopt;
   }
   ++params_;
   const Key key{params->id, sample.sender};
@@ -23,11 +23,11 @@ void Tally::add(const transport::Sample& sample) {
   if (camera == cameras_.end()) {
     if (cameras_.size() == most_cameras) {
       ++not_judged_;
-      return;
+      return std::nullopt;
     }
     camera = cameras_.try_emplace(key).first;
   }
-  camera->second.judge(params->counter);
+  return camera->second.judge(params->counter);
 }
 
 void Tally::summarise(const transport::SourceStatistics& source, std::ostream& out) const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "trk_bridge/transport/sequence.h"
@@ -14,7 +15,8 @@ namespace trk_bridge::tools {
 /// Not synchronised. Allocates only for a camera that it has not met.
 class Tally {
  public:
-  void add(const transport::Sample&);
+  /// The verdict on the counter; none for constants, and for cameras beyond `most_cameras`.
+  std::optional<transport::Order> add(const transport::Sample&);
 
   struct Key {
     std::uint32_t id = 0;

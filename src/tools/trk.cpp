@@ -12,15 +12,13 @@
 #include "arguments.h"
 #include "dump.h"
 #include "exit_code.h"
+#include "monitor.h"
 #include "preset_list.h"
 #include "relay.h"
 #include "stop_signals.h"
 #include "trk_bridge/presets/presets.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
-#ifdef TRK_BRIDGE_WITH_BAG
-#include "bag_command.h"
-#endif
 
 namespace trk_bridge::tools {
 namespace {
@@ -112,6 +110,34 @@ class RelayCommand {
   RelayOptions options_;
 };
 
+class MonitorCommand {
+ public:
+  explicit MonitorCommand(CLI::App& app)
+      : command_(app.add_subcommand("monitor",
+                                    "Show live what comes from SOURCE: on a terminal as a screen, which q "
+                                    "ends, else a line a second for every camera")) {
+    command_->footer(endpoints_help);
+    command_->add_option("SOURCE", url_, "Where records come from")->required();
+    command_->add_option("--seconds", options_.seconds, "End after S seconds")
+        ->check(CLI::PositiveNumber)
+        ->type_name("S");
+  }
+  bool is_asked_for() const { return command_->parsed(); }
+
+  ExitCode run() {
+    const auto source = transport::open_source(endpoint_of(url_, transport::Direction::read));
+    const StopSignals signals(source.get());
+    std::cerr << "trk: reading " << source->name() << '\n';
+    if (::isatty(STDOUT_FILENO) != 0) return monitor_on_screen(*source, options_, std::cerr);
+    return monitor_in_lines(*source, options_, std::cout, std::cerr);
+  }
+
+ private:
+  CLI::App* command_;
+  std::string url_;
+  MonitorOptions options_;
+};
+
 class PresetsCommand {
  public:
   explicit PresetsCommand(CLI::App& app)
@@ -142,18 +168,12 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   DumpCommand dump_command(app);
   RelayCommand relay_command(app);
+  MonitorCommand monitor_command(app);
   PresetsCommand presets_command(app);
-#ifdef TRK_BRIDGE_WITH_BAG
-  BagCommand bag_command(app);
-#else
-  app.footer("Built without ROS: trk bag is not part of it.");
-#endif
   return run_program(app, argc, argv, [&] {
-#ifdef TRK_BRIDGE_WITH_BAG
-    if (bag_command.is_asked_for()) return bag_command.run();
-#endif
     if (dump_command.is_asked_for()) return dump_command.run();
     if (relay_command.is_asked_for()) return relay_command.run();
+    if (monitor_command.is_asked_for()) return monitor_command.run();
     return presets_command.run();
   });
 }
