@@ -19,6 +19,9 @@
 #include "trk_bridge/presets/presets.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
+#ifdef TRK_BRIDGE_WITH_BAG
+#include "bag_command.h"
+#endif
 
 namespace trk_bridge::tools {
 namespace {
@@ -170,7 +173,15 @@ int main(int argc, char** argv) {
   RelayCommand relay_command(app);
   MonitorCommand monitor_command(app);
   PresetsCommand presets_command(app);
+#ifdef TRK_BRIDGE_WITH_BAG
+  BagCommand bag_command(app);
+#else
+  app.footer("Built without ROS: trk bag is not part of it.");
+#endif
   return run_program(app, argc, argv, [&] {
+#ifdef TRK_BRIDGE_WITH_BAG
+    if (bag_command.is_asked_for()) return bag_command.run();
+#endif
     if (dump_command.is_asked_for()) return dump_command.run();
     if (relay_command.is_asked_for()) return relay_command.run();
     if (monitor_command.is_asked_for()) return monitor_command.run();
