@@ -1,6 +1,7 @@
 #include "tf_input.h"
 
 #include "steady_time.h"
+#include "trk_bridge/ros/messages.h"
 
 namespace trk_bridge::nodes {
 namespace {
@@ -29,6 +30,7 @@ TfInput::TfInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParamet
         converter_.take_lens(*message);
       },
       ::ros::VoidConstPtr(), no_delay());
+  sent_ = node.advertise<trk_bridge::CameraParams>("sent", queue);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -86,7 +88,11 @@ void TfInput::look() {
     if (stopping_) return;
     outgoing = converter_.make(*pose, steady_now());
   }
-  if (outgoing.params) write_(outgoing);
+  if (!outgoing.params) return;
+  write_(outgoing);
+  trk_bridge::ros1::to_msg(*outgoing.params, sent_message_);
+  sent_message_.header = pose->header;
+  sent_.publish(sent_message_);
 }
 
 void TfInput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {

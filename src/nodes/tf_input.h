@@ -24,6 +24,8 @@ namespace trk_bridge::nodes {
 
 /// A thread of its own looks at tf at the rate of the parameters, by the steady clock and without drift, and writes a
 /// set when there is a newer pose.
+/// What was written is told on the topic `sent` as well, stamped with the time of its pose: trk has no times, so that
+/// only the counter tells a receiver's pose from the next.
 class TfInput : public TrkInput {
  public:
   /// Subscribes in the namespace of `node`. Parameters must have passed validate().
@@ -61,6 +63,8 @@ class TfInput : public TrkInput {
 
   std::thread thread_;
   ::ros::Subscriber camera_info_, lens_;
+  ::ros::Publisher sent_;
+  trk_bridge::CameraParams sent_message_;  // of the thread
 };
 
 }  // namespace trk_bridge::nodes
