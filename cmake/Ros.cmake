@@ -16,6 +16,7 @@ find_package(catkin REQUIRED COMPONENTS
 find_package(rosbag_storage REQUIRED)
 find_package(roslz4 REQUIRED)
 find_package(tf2 REQUIRED)
+find_package(tf2_msgs REQUIRED)
 find_package(BZip2 REQUIRED)
 
 add_message_files(DIRECTORY msg FILES CameraConstants.msg CameraParams.msg)

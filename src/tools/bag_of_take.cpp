@@ -1,6 +1,7 @@
 #include <limits>
 #include <map>
 #include <ostream>
+#include <system_error>
 #include <vector>
 
 #include <ros/message_traits.h>

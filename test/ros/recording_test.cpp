@@ -1,0 +1,105 @@
+// A camera recorded and played back by the launch files, and what trk bag makes of the recordings.
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+
+#include "fixture.h"
+#include "temporary_directory.h"
+#include "trk_bridge/transport/take_file.h"
+#include "vectors.h"
+
+namespace trk_bridge::test {
+namespace {
+
+/// A record's bytes, so that equal means equal bit for bit.
+template <typename RecordType>
+std::string bits(const RecordType& record) {
+  wire::Buffer buffer;
+  return std::string(wire::to_image(record, {wire::Generation::identified, wire::Abi::lp64, {}}, buffer).value());
+}
+
+/// Whether `part` lies in `whole` without a gap.
+::testing::AssertionResult is_run_of(const std::vector<wire::CameraParams>& part,
+                                     const std::vector<wire::CameraParams>& whole) {
+  const auto equal = [](const auto& a, const auto& b) { return bits(a) == bits(b); };
+  const auto found = std::search(whole.begin(), whole.end(), part.begin(), part.end(), equal);
+  if (found != whole.end()) return ::testing::AssertionSuccess() << "from field " << found - whole.begin();
+  return ::testing::AssertionFailure() << part.size() << " fields are no run of the " << whole.size();
+}
+
+class Recording : public NodeTest {
+ protected:
+  static std::vector<std::string> launch(const std::string& file, const std::vector<std::string>& arguments) {
+    std::vector<std::string> words{"/usr/bin/env", "roslaunch", "trk_bridge", file};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return words;
+  }
+
+  ::testing::AssertionResult trk_bag(const std::string& from, const std::string& to,
+                                     const std::vector<std::string>& options = {}) {
+    std::vector<std::string> words{TRK_TOOL, "bag", from, to};
+    words.insert(words.end(), options.begin(), options.end());
+    Program trk(words);
+    const std::string said = trk.rest_of_err();
+    if (trk.wait() != 0) return ::testing::AssertionFailure() << said;
+    return ::testing::AssertionSuccess() << said;
+  }
+
+  TemporaryDirectory directory;
+};
+
+TEST_F(Recording, OfARunningNodeIsTheTakeThatWasSent) {
+  const auto port = free_udp_port();
+  set("source", udp_url(port));
+  set("format", "as_received");
+  ASSERT_TRUE(starts());
+  const auto take = transport::read_take(data_path("field/takes/euler.trk"));
+  const std::string bag = directory / "recorded.bag";
+  Program recorder(launch("record.launch", {"camera:=" + camera, "bag:=" + bag}));
+  Tracker tracker(port);
+  std::size_t sent = 0;
+  const auto recorded = [&] {
+    std::error_code none_yet;
+    const auto size = std::filesystem::file_size(bag + ".active", none_yet);
+    return !none_yet && size > 50'000;
+  };
+  ASSERT_TRUE(eventually([&] {
+    tracker.send(take.constants);
+    tracker.send(take.params[sent++ % take.params.size()]);
+    return recorded();
+  }));
+  recorder.signal(SIGINT);
+  recorder.rest_of_out();
+  recorder.rest_of_err();
+  EXPECT_EQ(recorder.wait(), 0);
+  ASSERT_TRUE(trk_bag(bag, directory / "back.trk", {"--field-rate", "50"}));
+  const auto back = transport::read_take(directory / "back.trk");
+  EXPECT_GE(back.params.size(), 20u);
+  EXPECT_EQ(bits(back.constants), bits(take.constants));
+  EXPECT_TRUE(is_run_of(back.params, take.params));
+}
+
+TEST_F(Recording, PlayedBackFeedsRosToTrk) {
+  const auto whole = transport::read_take(data_path("field/takes/euler.trk"));
+  const std::string short_take = directory / "short.trk";
+  {
+    transport::TakeWriter writer(short_take, whole.time_code, /*overwrite=*/false);
+    ASSERT_TRUE(writer.write(whole.constants));
+    for (std::size_t i = 0; i < 200; ++i) ASSERT_TRUE(writer.write(whole.params[i]));
+    ASSERT_TRUE(writer.close());
+  }
+  const std::string bag = directory / "short.bag";
+  ASSERT_TRUE(trk_bag(short_take, bag, {"--camera", camera}));
+  const std::string sent = directory / "sent.trk";
+  Program player(launch("playback.launch", {"file:=" + bag, "camera:=" + camera, "sinks:=['file:" + sent + "']"}));
+  player.rest_of_out();
+  player.rest_of_err();
+  EXPECT_EQ(player.wait(), 0);
+  const auto back = transport::read_take(sent);
+  EXPECT_GE(back.params.size(), 100u);
+  EXPECT_TRUE(is_run_of(back.params, whole.params));
+  ::ros::param::del("/use_sim_time");
+}
+
+}  // namespace
+}  // namespace trk_bridge::test
