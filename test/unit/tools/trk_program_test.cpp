@@ -164,23 +164,5 @@ TEST(TrkRelay, ArgumentsThatAreWrongEndItBeforeAnythingIsOpened) {
   EXPECT_THAT(text, HasSubstr("trk: error: " + (directory / "absent.trk") + ": cannot be read: No such file"));
 }
 
-TEST(DemoCrane, SendsItsMoveToEverySink) {
-  const test::TemporaryDirectory directory;
-  const std::string path = directory / "crane.trk";
-  auto source = transport::open_source("udp://127.0.0.1:0");
-  const std::string url = "udp://127.0.0.1:" + std::to_string(test::port_of(*source));
-  Program crane({DEMO_CRANE, url, "file:" + path, "--seconds", "0.2", "--rate", "100", "--id", "5"});
-  transport::Reception reception;
-  ASSERT_EQ(test::next(*source, reception), transport::Event::sample);
-  EXPECT_EQ(std::get<wire::CameraConstants>(reception.sample.record).image_width, 1920);
-  for (std::uint64_t counter = 1; counter <= 20; ++counter) EXPECT_EQ(test::next_counter(*source), counter);
-  const std::string summary = crane.rest_of_err();
-  EXPECT_EQ(crane.wait(), 0) << summary;
-  const auto take = transport::read_take(path);
-  ASSERT_EQ(take.params.size(), 20u);
-  EXPECT_EQ(take.params[0].id, 5u);
-  EXPECT_NEAR(take.params[0].euler.x, 0, 1e-12) << "the arm begins straight ahead";
-}
-
 }  // namespace
 }  // namespace trk_bridge::tools
