@@ -68,7 +68,7 @@ class BagConstants {
 };
 
 /// Both say on `err` what was left out, and throw BagError when nothing is left.
-BagFields fields_from_params(BagFile&, const std::string& camera, const BagToTakeOptions&, std::ostream& err);
-BagFields fields_from_tf(BagFile&, const std::string& camera, const BagToTakeOptions&, std::ostream& err);
+BagFields fields_from_params(BagFile&, const std::string& camera, const BagToTakeOptions&, LongRun&, std::ostream& err);
+BagFields fields_from_tf(BagFile&, const std::string& camera, const BagToTakeOptions&, LongRun&, std::ostream& err);
 
 }  // namespace trk_bridge::tools

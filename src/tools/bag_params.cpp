@@ -42,25 +42,28 @@ Recorded read(BagFile& bag, const std::string& camera) {
   return recorded;
 }
 
-/// The one id of all parameters, which the constants get as well: with 0 they serve any camera.
-std::uint32_t common_id(const Recorded& recorded, std::ostream& err) {
-  const std::uint32_t id = recorded.params.front().id;
-  for (const auto& params : recorded.params) {
+/// The one id of all parameters.
+std::uint32_t common_id(const std::vector<wire::CameraParams>& all) {
+  const std::uint32_t id = all.front().id;
+  for (const auto& params : all) {
     if (params.id == id) continue;
     throw BagError("parameters of several cameras, ids " + std::to_string(id) + " and " + std::to_string(params.id) +
                    ": a take holds one; --id N writes all of them as camera N");
   }
-  const std::uint32_t of_constants = recorded.constants.known()->id;
-  if (of_constants != id) {
-    err << "trk: the constants have id " << of_constants << ", the parameters " << id << ": both are written with "
-        << id << '\n';
-  }
+  return id;
+}
+
+/// Constants with 0 serve any camera.
+std::uint32_t constants_id(std::uint32_t known, std::uint32_t id, std::ostream& err) {
+  if (known == 0 || known == id) return known;
+  err << "trk: the constants have id " << known << ", the parameters " << id << ": both are written with " << id
+      << '\n';
   return id;
 }
 
 }  // namespace
 
-BagFields fields_from_params(BagFile& bag, const std::string& camera, const BagToTakeOptions& options,
+BagFields fields_from_params(BagFile& bag, const std::string& camera, const BagToTakeOptions& options, LongRun& run,
                              std::ostream& err) {
   Recorded recorded = read(bag, camera);
   if (recorded.params.empty()) throw BagError("there is no message on " + topic_of(camera, "params"));
@@ -73,13 +76,15 @@ BagFields fields_from_params(BagFile& bag, const std::string& camera, const BagT
   }
   BagFields fields;
   const auto& incoming = *recorded.constants.known();
-  const std::uint32_t id = options.id ? *options.id : common_id(recorded, err);
+  const std::uint32_t id = options.id ? *options.id : common_id(recorded.params);
   fields.constants = options.format ? camera::constants_for(incoming, *options.format) : incoming;
   const wire::CameraConstants outgoing = fields.constants;
-  fields.constants.id = id;
+  fields.constants.id = options.id ? id : constants_id(incoming.id, id, err);
   Omissions omissions;
   wire::Buffer buffer;
+  run.begin("converting");
   for (std::size_t i = 0; i < recorded.params.size(); ++i) {
+    run.at(static_cast<double>(i) / static_cast<double>(recorded.params.size()));
     wire::CameraParams params = recorded.params[i];
     if (options.format) {
       const auto told = camera::reexpress(params, *options.format, &incoming, &outgoing);
@@ -99,6 +104,7 @@ BagFields fields_from_params(BagFile& bag, const std::string& camera, const BagT
     fields.params.push_back(params);
     fields.stamps.push_back(recorded.stamps[i]);
   }
+  run.end();
   omissions.tell(err);
   if (fields.params.empty()) throw BagError("no field is left of " + topic_of(camera, "params"));
   return fields;

@@ -210,7 +210,8 @@ tl::expected<wire::CameraParams, std::string> params_of(Poses& poses, Lenses& le
 
 }  // namespace
 
-BagFields fields_from_tf(BagFile& bag, const std::string& camera, const BagToTakeOptions& options, std::ostream& err) {
+BagFields fields_from_tf(BagFile& bag, const std::string& camera, const BagToTakeOptions& options, LongRun& run,
+                         std::ostream& err) {
   Recorded recorded = read(bag, camera);
   if (recorded.infos.empty()) throw BagError("there is no message on " + topic_of(camera, "camera_info"));
   std::stable_sort(recorded.infos.begin(), recorded.infos.end(),
@@ -225,7 +226,10 @@ BagFields fields_from_tf(BagFile& bag, const std::string& camera, const BagToTak
   Poses poses(std::move(recorded.moving), recorded.fixed);
   Lenses lenses(incoming);
   Omissions omissions;
+  run.begin("converting");
+  double done = 0;
   for (const auto& info : recorded.infos) {
+    run.at(done++ / static_cast<double>(recorded.infos.size()));
     auto params = params_of(poses, lenses, info, options, fields.constants);
     const auto stamp = static_cast<std::int64_t>(info.header.stamp.toNSec());
     if (!params) {
@@ -236,6 +240,7 @@ BagFields fields_from_tf(BagFile& bag, const std::string& camera, const BagToTak
     fields.params.push_back(*params);
     fields.stamps.push_back(stamp);
   }
+  run.end();
   omissions.tell(err);
   lenses.tell(err);
   if (fields.params.empty()) throw BagError("no field is left of " + topic_of(camera, "camera_info"));

@@ -40,8 +40,8 @@ void take_of_bag(const std::string& bag_path, const std::string& take_path, cons
     BagFile bag(bag_path, run);
     const auto camera = choose_camera(bag.connections(), options.camera, options.input);
     const bool by_params = camera.input == BagInput::params;
-    const auto fields =
-        by_params ? fields_from_params(bag, camera.name, options, err) : fields_from_tf(bag, camera.name, options, err);
+    const auto fields = by_params ? fields_from_params(bag, camera.name, options, run, err)
+                                  : fields_from_tf(bag, camera.name, options, run, err);
     run.end();
     if (!bag.damage().empty()) err << "trk: " << bag_path << " is cut short: " << bag.damage() << '\n';
 

@@ -56,11 +56,14 @@ tl::expected<void, SinkFault> TakeWriter::write(const wire::CameraConstants& con
 tl::expected<void, SinkFault> TakeWriter::write(const wire::CameraParams& params) {
   if (!file_.is_open()) return tl::unexpected(SinkFault{SinkReason::closed});
   if (!constants_) return tl::unexpected(SinkFault{SinkReason::no_constants});
-  if (params.id != constants_->id) return tl::unexpected(SinkFault{SinkReason::other_camera});
+  const std::uint32_t any = constants_->id == 0 ? params.id : constants_->id;
+  if (params.id != camera_.value_or(any)) return tl::unexpected(SinkFault{SinkReason::other_camera});
   if (!constants_count_) return tl::unexpected(SinkFault{SinkReason::constants_changed});
   const auto text = wire::to_text(params, buffer_);
   if (!text) return encode_fault(text.error());
-  return append(*text);
+  auto written = append(*text);
+  if (written) camera_ = params.id;
+  return written;
 }
 
 tl::expected<void, SinkFault> TakeWriter::append(std::string_view line) {

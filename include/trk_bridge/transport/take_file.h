@@ -68,7 +68,8 @@ class TakeWriter {
   /// Once, before the first parameters. The same again is no fault and writes nothing. Others of that id are
   /// constants_changed, as are all parameters until the first ones come again; other ids are other_camera.
   [[nodiscard]] tl::expected<void, SinkFault> write(const wire::CameraConstants&);
-  /// One video field; no_constants before the constants. A line that could not be written whole is not in the file.
+  /// One video field, of the constants' id; constants with id 0 serve any camera, the first one's id counting from then
+  /// on. no_constants before the constants. A line that could not be written whole is not in the file.
   [[nodiscard]] tl::expected<void, SinkFault> write(const wire::CameraParams&);
   /// Brings everything to the disk and gives the file its final name. Without constants there is no take: no_constants,
   /// and nothing stays. When the system refuses, `PATH.part` stays as it is. Closing again does nothing.
@@ -85,7 +86,8 @@ class TakeWriter {
   PartFile file_;
   std::int64_t size_ = 0;  // of the whole lines; what lies behind is what is left of a failed write
   std::optional<wire::CameraConstants> constants_;
-  bool constants_count_ = false;  // no others have come since
+  std::optional<std::uint32_t> camera_;  // of the parameters written
+  bool constants_count_ = false;         // no others have come since
   wire::Buffer buffer_{};
 };
 

@@ -124,12 +124,11 @@ TEST_F(FromParams, ConstantsMayComeLateAndTwiceButNotChange) {
   EXPECT_THAT(refusal(other.closed()), HasSubstr("the constants change"));
 }
 
-TEST_F(FromParams, OneIdServesParamsAndConstants) {
-  put_constants();
+TEST_F(FromParams, ATakeHoldsOneId) {
+  put_constants("/crane", 5);
   bag.put("/crane/params", 100, params_message(some_params(1, 7), 100));
-  const auto take = to_take(bag.closed());
-  EXPECT_EQ(take.constants.id, 7u);
-  EXPECT_THAT(err.str(), HasSubstr("the constants have id 0, the parameters 7"));
+  EXPECT_EQ(to_take(bag.closed()).constants.id, 7u);
+  EXPECT_THAT(err.str(), HasSubstr("the constants have id 5, the parameters 7"));
 
   SomeBag other(directory / "other.bag");
   other.put("/crane/constants", 99, constants_message());

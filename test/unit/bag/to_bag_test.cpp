@@ -50,6 +50,16 @@ TEST_F(ToBag, ATakeInShortestFormComesBackByteForByte) {
   }
 }
 
+TEST_F(ToBag, ConstantsThatServeAnyCameraStaySo) {
+  const auto take = directory / "any.trk";
+  write_text(take,
+             "DMC01\n10:20:30:12:1\n720 576 10 10 0 0 6.4 4.8 6.58286 4.8\nI7 1 0.5 -2 1.5 0 0 0 7.7 0 0 0 0 0 0 9\n");
+  const auto sent = transport::read_take(take);
+  const auto back = to_take(to_bag(take));
+  EXPECT_EQ(bits(back.constants), bits(sent.constants));
+  EXPECT_EQ(bits_of(back.params), bits_of(sent.params));
+}
+
 TEST_F(ToBag, EqualTakesMakeEqualFiles) {
   for (const char* compression : {"none", "bz2", "lz4"}) {
     TakeToBagOptions options;

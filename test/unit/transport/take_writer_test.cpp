@@ -180,6 +180,25 @@ TEST_F(WriteTake, AFileHoldsOneCamera) {
   EXPECT_EQ(read_take(path).params.size(), 1u);
 }
 
+TEST_F(WriteTake, ConstantsWithoutIdServeOneCameraOfAnyId) {
+  TakeWriter writer(path, code, false);
+  auto constants = some_constants();
+  constants.id = 0;
+  ASSERT_TRUE(writer.write(constants));
+  auto params = some_params(1);
+  params.id = 7;
+  ASSERT_TRUE(writer.write(params));
+  params.id = 8;
+  EXPECT_EQ(writer.write(params).error().reason, SinkReason::other_camera);
+  params.id = 0;
+  EXPECT_EQ(writer.write(params).error().reason, SinkReason::other_camera);
+  ASSERT_TRUE(writer.close());
+  const Take take = read_take(path);
+  EXPECT_EQ(take.constants.id, 0u);
+  ASSERT_EQ(take.params.size(), 1u);
+  EXPECT_EQ(take.params[0].id, 7u);
+}
+
 TEST_F(WriteTake, WithoutConstantsThereIsNoTake) {
   TakeWriter writer(path, code, false);
   const auto closed = writer.close();
