@@ -70,17 +70,15 @@ std::string DiagnosticsRecorder::value(const std::string& name, const std::strin
 
 std::string udp_url(std::uint16_t port) { return "udp://127.0.0.1:" + std::to_string(port); }
 
-NodeTest::NodeTest() {
+NodeTest::NodeTest(const std::string& of_program) : program(of_program) {
   static std::atomic<int> made{0};
   camera = "camera" + std::to_string(++made);
   name_space = "/" + camera;
-  node_name = name_space + "/trk_to_ros";
+  node_name = name_space + program.substr(program.find_last_of('/'));
   set("diagnostic_period", 0.1);
 }
 
-void NodeTest::start() {
-  node = std::make_unique<Program>(std::vector<std::string>{TRK_TO_ROS, "__ns:=" + name_space});
-}
+void NodeTest::start() { node = std::make_unique<Program>(std::vector<std::string>{program, "__ns:=" + name_space}); }
 
 ::testing::AssertionResult NodeTest::starts(const std::string& told_of) {
   start();
@@ -92,6 +90,21 @@ void NodeTest::start() {
   if (eventually(told)) return ::testing::AssertionSuccess();
   node->signal(SIGKILL);
   return ::testing::AssertionFailure() << "the node did not start: " << node->rest_of_err();
+}
+
+std::string NodeTest::refusal() {
+  start();
+  const std::string said = node->rest_of_err();
+  EXPECT_EQ(node->wait(), 1);
+  return said;
+}
+
+std::chrono::nanoseconds NodeTest::interrupted() {
+  const auto begin = std::chrono::steady_clock::now();
+  node->signal(SIGINT);
+  (void)node->rest_of_err();
+  EXPECT_EQ(node->wait(), 0);
+  return std::chrono::steady_clock::now() - begin;
 }
 
 }  // namespace trk_bridge::test

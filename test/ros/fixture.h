@@ -91,7 +91,8 @@ std::string udp_url(std::uint16_t port);
 /// One camera's node in a namespace of its own, made for one test.
 class NodeTest : public ::testing::Test {
  protected:
-  NodeTest();
+  /// Of trk_to_ros, or of another program, whose name the node bears.
+  explicit NodeTest(const std::string& program = TRK_TO_ROS);
 
   /// Sets a private parameter.
   template <typename T>
@@ -102,9 +103,14 @@ class NodeTest : public ::testing::Test {
   /// Starts it and waits until it has told the state of camera `told_of`.
   ::testing::AssertionResult starts(const std::string& told_of);
   ::testing::AssertionResult starts() { return starts(camera); }
+  /// Expects it to end with 1 at once and returns what it said.
+  std::string refusal();
+  /// Ends it as Ctrl-C does; how long that took.
+  std::chrono::nanoseconds interrupted();
   std::string status_name(const std::string& of_camera) const { return node_name.substr(1) + ": " + of_camera; }
   std::string status_name() const { return status_name(camera); }
 
+  std::string program;
   std::string camera;      ///< its name, unique in this run
   std::string name_space;  ///< "/" + camera
   std::string node_name;

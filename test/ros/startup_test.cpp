@@ -13,24 +13,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-class Startup : public NodeTest {
- protected:
-  /// Expects it to end with 1 and returns what it said.
-  std::string refusal() {
-    start();
-    const std::string said = node->rest_of_err();
-    EXPECT_EQ(node->wait(), 1);
-    return said;
-  }
-  /// Ends it as Ctrl-C does; how long that took.
-  std::chrono::nanoseconds interrupted() {
-    const auto begin = std::chrono::steady_clock::now();
-    node->signal(SIGINT);
-    (void)node->rest_of_err();
-    EXPECT_EQ(node->wait(), 0);
-    return std::chrono::steady_clock::now() - begin;
-  }
-};
+class Startup : public NodeTest {};
 
 TEST_F(Startup, WithoutASourceItEndsAndSaysWhatIsMissing) {
   EXPECT_THAT(refusal(), AllOf(HasSubstr("~source = ''"), HasSubstr("must be given")));

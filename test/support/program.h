@@ -49,6 +49,7 @@ class Program {
   std::string rest_of_out() { return rest(out_); }
   std::string rest_of_err() { return rest(err_); }
 
+  pid_t pid() const { return pid_; }
   void signal(int number) const { ::kill(pid_, number); }
   /// As a reader in a pipe that has seen enough.
   void close_out() {

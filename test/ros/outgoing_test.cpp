@@ -1,0 +1,362 @@
+// ros_to_trk as a process: what goes in as messages and tf, what comes out over UDP, shared memory and files.
+#include <sys/resource.h>
+
+#include <cmath>
+#include <csignal>
+
+#include <sensor_msgs/CameraInfo.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <trk_bridge/CameraConstants.h>
+#include <trk_bridge/CameraParams.h>
+
+#include "fixture.h"
+#include "free_slot.h"
+#include "receiver.h"
+#include "temporary_directory.h"
+#include "trk_bridge/ros/messages.h"
+#include "trk_bridge/transport/take_file.h"
+
+namespace trk_bridge::test {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class OutgoingTest : public NodeTest {
+ protected:
+  OutgoingTest() : NodeTest(ROS_TO_TRK) {}
+
+  void set_sinks(const std::vector<std::string>& urls) { set("sinks", urls); }
+};
+
+class OutgoingStartup : public OutgoingTest {};
+
+TEST_F(OutgoingStartup, WithoutSinksItEndsAndSaysWhatIsMissing) {
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("~sinks = []"), HasSubstr("must be given")));
+}
+
+TEST_F(OutgoingStartup, FaultsOfParametersAreNamed) {
+  set_sinks({"udp://127.0.0.1:7000", "tcp://127.0.0.1:7000"});
+  set("preset", "brainstrom");
+  set("input", "tf");
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("~sinks = 'tcp://127.0.0.1:7000'"), HasSubstr("nearest is brainstorm"),
+                               HasSubstr("~chip_width = (none)")));
+}
+
+TEST_F(OutgoingStartup, AnUnknownParameterIsNamedWithTheNearestKnown) {
+  set("sink", "udp://127.0.0.1:7000");
+  EXPECT_THAT(refusal(), HasSubstr("~sink = 'udp://127.0.0.1:7000': no such parameter, nearest is sinks"));
+}
+
+TEST_F(OutgoingStartup, ASinkThatCannotBeOpenedIsTold) {
+  const TemporaryDirectory folder;
+  set_sinks({"udp://127.0.0.1:7000", "file:" + folder / "missing/take.trk"});
+  EXPECT_THAT(refusal(), HasSubstr("missing/take.trk"));
+}
+
+TEST_F(OutgoingStartup, SigintEndsItPromptly) {
+  set_sinks({Receiver().url()});
+  ASSERT_TRUE(starts());
+  EXPECT_LT(interrupted(), std::chrono::seconds(3));
+}
+
+TEST_F(OutgoingStartup, SigintEndsItPromptlyWhileItLooksAtTf) {
+  set_sinks({Receiver().url()});
+  set("input", "tf");
+  set("chip_width", 9.59);
+  set("chip_height", 5.39);
+  ASSERT_TRUE(starts());
+  EXPECT_LT(interrupted(), std::chrono::seconds(3));
+}
+
+class FromParams : public OutgoingTest {
+ protected:
+  void open(const std::vector<std::string>& sinks) {
+    set_sinks(sinks);
+    set("queue_size", 10000);
+    ::ros::NodeHandle ros;
+    params_publisher = ros.advertise<trk_bridge::CameraParams>(name_space + "/params", 10000);
+    constants_publisher = ros.advertise<trk_bridge::CameraConstants>(name_space + "/constants", 10, /*latch=*/true);
+    ASSERT_TRUE(starts());
+    ASSERT_TRUE(eventually(
+        [this] { return params_publisher.getNumSubscribers() > 0 && constants_publisher.getNumSubscribers() > 0; }));
+  }
+
+  void publish(const wire::CameraParams& record) {
+    trk_bridge::CameraParams message;
+    ros1::to_msg(record, message);
+    params_publisher.publish(message);
+  }
+  /// Waits until they are known to the node.
+  void publish(const wire::CameraConstants& record) {
+    trk_bridge::CameraConstants message;
+    ros1::to_msg(record, message);
+    constants_publisher.publish(message);
+    ASSERT_TRUE(diagnostics.becomes(status_name(), "constants known", "received"));
+  }
+
+  ::ros::Publisher params_publisher, constants_publisher;
+  Receiver receiver;
+};
+
+TEST_F(FromParams, WhatNeedsNoChangeGoesOutAsItCame) {
+  ASSERT_NO_FATAL_FAILURE(open({receiver.url()}));
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::STALE, "no messages on " + name_space + "/params"));
+  auto record = params(1000, 7);
+  record.euler.pan = 30.1;
+  record.k1 = 1e-4 / 3;
+  publish(record);
+  ASSERT_TRUE(eventually([&] { return receiver.is_at(1000); }));
+  EXPECT_EQ(receiver.params.back(), record);
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "no constants yet"));
+  EXPECT_TRUE(diagnostics.becomes(status_name(receiver.url()), "sent", "1"));
+}
+
+TEST_F(FromParams, ConstantsAreRepeatedAndBearTheIdOfTheParams) {
+  ASSERT_NO_FATAL_FAILURE(open({receiver.url() + "?constants_period=0.1"}));
+  ASSERT_NO_FATAL_FAILURE(publish(constants(1920)));
+  std::uint64_t counter = 0;
+  ASSERT_TRUE(eventually([&] {
+    publish(params(++counter, 7));
+    receiver.take();
+    return receiver.constants.size() >= 3;
+  }));
+  for (const auto& c : receiver.constants) {
+    EXPECT_EQ(c.id, 7u);
+    EXPECT_EQ(c.image_width, 1920);
+  }
+}
+
+TEST_F(FromParams, APresetIsTheReceiversFormatAndLeavesOutAnIdThatItCannotTake) {
+  set("preset", "unreal_trackmen");
+  set("id", 5);
+  ASSERT_NO_FATAL_FAILURE(open({receiver.url()}));
+  publish(params(1, 7));
+  ASSERT_TRUE(eventually([&] { return receiver.is_at(1); }));
+  EXPECT_EQ(receiver.params.back().id, 0u);
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "id 5 is left out"));
+}
+
+TEST_F(FromParams, OrderAndCountersOfABurstAreKept) {
+  ASSERT_NO_FATAL_FAILURE(open({receiver.url()}));
+  for (std::uint64_t counter = 1; counter <= 80; ++counter) publish(params(counter));
+  ASSERT_TRUE(eventually([&] { return receiver.is_at(80); }));
+  ASSERT_EQ(receiver.params.size(), 80u);
+  for (std::size_t i = 0; i < 80; ++i) EXPECT_EQ(receiver.params[i].counter, i + 1);
+}
+
+TEST_F(FromParams, WhatIsNoCameraIsNotSent) {
+  ASSERT_NO_FATAL_FAILURE(open({receiver.url()}));
+  auto bad = params(1);
+  bad.k1 = std::nan("");
+  publish(bad);
+  EXPECT_TRUE(diagnostics.becomes(status_name(), "dropped", "1"));
+  publish(params(2));
+  ASSERT_TRUE(eventually([&] { return receiver.is_at(2); }));
+  EXPECT_EQ(receiver.params.size(), 1u);
+}
+
+TEST_F(FromParams, AFullDiskCostsNoOtherSinkAnythingAndIsOverWhenThereIsRoom) {
+  // The limit that stands for the full disk must not end the node.
+  ::signal(SIGXFSZ, SIG_IGN);
+  const TemporaryDirectory folder;
+  const std::string file = "file:" + folder / "take.trk";
+  ASSERT_NO_FATAL_FAILURE(open({file, receiver.url()}));
+  ASSERT_NO_FATAL_FAILURE(publish(constants()));
+  std::uint64_t counter = 0;
+  const auto send_until = [&](const std::function<bool()>& met) {
+    return eventually([&] {
+      publish(params(++counter));
+      receiver.take();
+      return met();
+    });
+  };
+  const auto sent_to_file = [&] { return std::stoul("0" + diagnostics.value(status_name(file), "sent")); };
+  // More than the node's log has, which the limit holds for as well.
+  ASSERT_TRUE(send_until([&] { return sent_to_file() > 600; }));
+  const rlimit full{20'000, RLIM_INFINITY};
+  ASSERT_EQ(::prlimit(node->pid(), RLIMIT_FSIZE, &full, nullptr), 0);
+  ASSERT_TRUE(send_until([&] { return std::stoul("0" + diagnostics.value(status_name(file), "errors")) > 10; }));
+  ASSERT_TRUE(send_until([&] {
+    const auto* status = diagnostics.find(status_name(file));
+    return status != nullptr && status->level == DiagnosticStatus::ERROR;
+  }));
+  EXPECT_THAT(diagnostics.find(status_name(file))->message, HasSubstr("nothing goes out: the system refused"));
+  EXPECT_EQ(diagnostics.value(status_name(receiver.url()), "errors"), "0");
+
+  const rlimit room{RLIM_INFINITY, RLIM_INFINITY};
+  ASSERT_EQ(::prlimit(node->pid(), RLIMIT_FSIZE, &room, nullptr), 0);
+  ASSERT_TRUE(send_until([&] {
+    const auto* status = diagnostics.find(status_name(file));
+    return status->level == DiagnosticStatus::OK;
+  }));
+  ASSERT_TRUE(eventually([&] { return receiver.is_at(counter); }));
+  EXPECT_EQ(receiver.params.size(), counter) << "not one is missing";
+  interrupted();
+  const auto take = transport::read_take(folder / "take.trk");
+  EXPECT_EQ(take.params.back().counter, counter);
+  EXPECT_LT(take.params.size(), counter);
+}
+
+TEST_F(FromParams, ARemovedSegmentIsMadeAnewWithItsConstants) {
+  FreeSlot slot;
+  const std::string shm = "shm:" + std::to_string(slot.number());
+  ASSERT_NO_FATAL_FAILURE(open({shm, receiver.url()}));
+  ASSERT_NO_FATAL_FAILURE(publish(constants(1920)));
+  publish(params(1));
+  ASSERT_TRUE(eventually([&] { return receiver.is_at(1); }));
+  slot.remove();
+  std::uint64_t counter = 1;
+  ASSERT_TRUE(eventually([&] {
+    publish(params(++counter));
+    receiver.take();
+    return slot.segment() >= 0;
+  }));
+  const auto source = transport::open_source(shm, 50);
+  transport::Reception reception;
+  bool has_constants = false, has_params = false;
+  ASSERT_TRUE(eventually([&] {
+    publish(params(++counter));
+    receiver.take();
+    if (source->receive(reception, std::chrono::milliseconds(50)) != transport::Event::sample) return false;
+    const auto& record = reception.sample.record;
+    if (const auto* c = std::get_if<wire::CameraConstants>(&record)) has_constants = c->image_width == 1920;
+    if (const auto* p = std::get_if<wire::CameraParams>(&record)) has_params = p->counter > 1;
+    return has_constants && has_params;
+  }));
+  ASSERT_TRUE(eventually([&] { return receiver.is_at(counter); }));
+  EXPECT_EQ(receiver.params.size(), counter) << "not one is missing";
+}
+
+class FromTf : public OutgoingTest {
+ protected:
+  void open(double rate = 100) {
+    set_sinks({receiver.url()});
+    set("input", "tf");
+    set("rate", rate);
+    set("chip_width", 9.6);
+    set("chip_height", 5.4);
+    set("aperture", 2.8);
+    info_publisher = ::ros::NodeHandle().advertise<sensor_msgs::CameraInfo>(name_space + "/camera_info", 10);
+    lens_publisher = ::ros::NodeHandle().advertise<trk_bridge::CameraParams>(name_space + "/lens", 10);
+    ASSERT_TRUE(starts());
+    ASSERT_TRUE(eventually(
+        [this] { return info_publisher.getNumSubscribers() > 0 && lens_publisher.getNumSubscribers() > 0; }));
+  }
+
+  sensor_msgs::CameraInfo info() const {
+    sensor_msgs::CameraInfo m;
+    m.header.stamp = ::ros::Time::now();
+    m.width = 1920;
+    m.height = 1080;
+    m.distortion_model = "plumb_bob";
+    m.D = {0, 0, 0, 0, 0};
+    m.K = {2000, 0, 959.5, 0, 2000, 539.5, 0, 0, 1};
+    return m;
+  }
+
+  void broadcast(const std::string& child, double x) {
+    geometry_msgs::TransformStamped m;
+    m.header.stamp = ::ros::Time::now();
+    m.header.frame_id = "studio";
+    m.child_frame_id = child;
+    m.transform.translation.x = x;
+    m.transform.rotation.w = 1;
+    broadcaster.sendTransform(m);
+  }
+
+  /// Moves the camera until as many sets as these have come.
+  bool moves(std::size_t sets) {
+    return eventually([&] {
+      broadcast(camera, ++at);
+      receiver.take();
+      return receiver.params.size() >= sets;
+    });
+  }
+
+  ::ros::Publisher info_publisher, lens_publisher;
+  tf2_ros::TransformBroadcaster broadcaster;
+  Receiver receiver;
+  double at = 0;
+};
+
+TEST_F(FromTf, NothingIsSentWithoutTfOrALensAndItIsToldWhy) {
+  ASSERT_NO_FATAL_FAILURE(open());
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::STALE, "nothing sent yet: tf: "));
+  EXPECT_TRUE(eventually([&] {
+    broadcast(camera, 1);
+    const auto* status = diagnostics.find(status_name());
+    return status->message.find("no camera_info yet on " + name_space + "/camera_info") != std::string::npos;
+  }));
+  auto fisheye = info();
+  fisheye.distortion_model = "equidistant";
+  info_publisher.publish(fisheye);
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::STALE,
+                                "camera_info is refused: distortion_model must be plumb_bob or rational_polynomial"));
+  receiver.take();
+  EXPECT_TRUE(receiver.params.empty());
+  info_publisher.publish(info());
+  EXPECT_TRUE(moves(1));
+  EXPECT_EQ(receiver.params.front().counter, 1u);
+}
+
+TEST_F(FromTf, StaleTfIsNeverSentAgain) {
+  ASSERT_NO_FATAL_FAILURE(open());
+  info_publisher.publish(info());
+  ASSERT_TRUE(moves(20));
+  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "tf is stale, its newest pose is of "));
+  receiver.take();
+  const auto sets = receiver.params.size();
+  EXPECT_EQ(receiver.params.back().euler.x, at) << "the last pose came out";
+  EXPECT_EQ(diagnostics.value(status_name(), "sets"), std::to_string(sets));
+  for (std::size_t i = 0; i < sets; ++i) {
+    EXPECT_EQ(receiver.params[i].counter, i + 1);
+    const double before = i == 0 ? 0 : receiver.params[i - 1].euler.x;
+    EXPECT_GT(receiver.params[i].euler.x, before) << "every set is another pose";
+  }
+  ASSERT_TRUE(moves(sets + 5));
+  EXPECT_EQ(receiver.params[sets].counter, sets + 1) << "the counter goes on";
+  EXPECT_TRUE(eventually([&] {
+    broadcast(camera, ++at);
+    return diagnostics.find(status_name())->level == DiagnosticStatus::OK;
+  }));
+}
+
+TEST_F(FromTf, PoseLensConstantsAndFocus) {
+  set("id", 7);
+  ASSERT_NO_FATAL_FAILURE(open());
+  info_publisher.publish(info());
+  trk_bridge::CameraParams lens;
+  lens.focdist = 4.5;
+  lens.aperture = 5.6;
+  lens_publisher.publish(lens);
+  ASSERT_TRUE(eventually([&] {
+    broadcast(camera, 3);
+    receiver.take();
+    return !receiver.params.empty() && receiver.params.back().focdist == 4.5;
+  }));
+  const auto& p = receiver.params.back();
+  EXPECT_EQ(p.id, 7u);
+  EXPECT_EQ(p.euler.x, 3);
+  EXPECT_NEAR(p.fov, 10, 1e-12);
+  EXPECT_EQ(p.aperture, 5.6);
+  ASSERT_FALSE(receiver.constants.empty());
+  EXPECT_EQ(receiver.constants.front(), (wire::CameraConstants{7, 1920, 1080, 0, 0, 0, 0, 9.6, 5.4, 9.6, 5.4}));
+}
+
+TEST_F(FromTf, SetsComeNoFasterThanTheRateHoweverFastTfIs) {
+  constexpr double rate = 20;
+  ASSERT_NO_FATAL_FAILURE(open(rate));
+  info_publisher.publish(info());
+  ASSERT_TRUE(moves(1));
+  const auto begin = std::chrono::steady_clock::now();
+  const auto before = receiver.params.size();
+  constexpr int sets = 20;
+  ASSERT_TRUE(moves(before + sets));
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_GT(took.count(), (sets - 1) / rate);
+}
+
+}  // namespace
+}  // namespace trk_bridge::test

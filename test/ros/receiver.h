@@ -1,0 +1,42 @@
+// What a receiver of trk has got so far.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "udp.h"
+
+namespace trk_bridge::test {
+
+/// A port of the loopback.
+class Receiver {
+ public:
+  std::string url() const { return "udp://127.0.0.1:" + std::to_string(socket_.port()); }
+
+  /// Takes everything that has come. Throws when something that came is no record.
+  void take() {
+    while (const auto bytes = socket_.receive(std::chrono::milliseconds(0))) {
+      const auto read = wire::decode(*bytes, sense_);
+      if (!read) throw std::runtime_error("no record: " + wire::describe(read.error()));
+      if (const auto* p = std::get_if<wire::CameraParams>(&read->record)) params.push_back(*p);
+      if (const auto* c = std::get_if<wire::CameraConstants>(&read->record)) constants.push_back(*c);
+    }
+  }
+  /// Whether parameters with this counter are the last that came.
+  bool is_at(std::uint64_t counter) {
+    take();
+    return !params.empty() && params.back().counter == counter;
+  }
+
+  std::vector<wire::CameraParams> params;
+  std::vector<wire::CameraConstants> constants;
+
+ private:
+  PlainSocket socket_;
+  wire::LayoutSense sense_;
+};
+
+}  // namespace trk_bridge::test

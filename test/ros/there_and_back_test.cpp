@@ -1,0 +1,140 @@
+// The worked cases through both nodes: trk over UDP, topics and tf, trk over UDP.
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <nodelet/NodeletLoad.h>
+#include <nodelet/NodeletUnload.h>
+
+#include "../unit/camera/worked_cases.h"
+#include "fixture.h"
+#include "receiver.h"
+#include "same_camera.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::test {
+namespace {
+
+/// trk_to_ros as a process; what of ros_to_trk comes back is the test's.
+class ThereAndBack : public NodeTest {
+ protected:
+  void SetUp() override {
+    const auto port = free_udp_port();
+    set("source", udp_url(port));
+    ASSERT_TRUE(starts());
+    tracker.emplace(port);
+  }
+
+  /// Sends a case until what comes back is `same`: constants and parameters come on connections of their own, so that
+  /// the first after a change may meet the constants before.
+  template <typename Same>
+  void expect_back(const WorkedCase& one, Receiver& receiver, Same same) {
+    constexpr int patience = 200;
+    ::testing::AssertionResult result = ::testing::AssertionFailure() << "nothing came back";
+    for (int attempt = 0; attempt < patience && !result; ++attempt) {
+      auto record = one.params;
+      record.counter = ++counter;
+      const auto sets = receiver.params.size();
+      tracker->send(one.constants);
+      tracker->send(record);
+      const auto came = [&] {
+        receiver.take();
+        return receiver.params.size() > sets;
+      };
+      if (!eventually(came, std::chrono::milliseconds(100)) || receiver.constants.empty()) continue;
+      const auto back = camera::decode(receiver.params.back(), &receiver.constants.back());
+      if (back) result = same(*back);
+    }
+    EXPECT_TRUE(result) << wire::format_to_words(one.mask);
+  }
+
+  std::optional<Tracker> tracker;
+  std::uint64_t counter = 0;
+};
+
+class ThroughParams : public ThereAndBack, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(ThroughParams, EveryCaseIsTheSameCamera) {
+  Receiver receiver;
+  ::ros::param::set(name_space + "/ros_to_trk/sinks", std::vector<std::string>{receiver.url() + "?binary=1"});
+  ::ros::param::set(name_space + "/ros_to_trk/format", GetParam());
+  ::ros::param::set(name_space + "/ros_to_trk/diagnostic_period", 0.1);
+  const Program outgoing({ROS_TO_TRK, "__ns:=" + name_space});
+  for (const auto& one : worked_cases()) {
+    expect_back(one, receiver, [&one](const camera::Camera& back) { return same_to_the_digits(back, one.camera); });
+    if (HasFailure()) return;
+  }
+  EXPECT_EQ(receiver.params.back().counter, counter) << "passed on";
+}
+
+INSTANTIATE_TEST_SUITE_P(As, ThroughParams,
+                         ::testing::Values("euler",
+                                           "studio_to_camera camera_y_up studio_y_up field_of_view diagonal "
+                                           "ignore_blank keep_aspect shift_in_pixels"),
+                         [](const auto& test) { return test.index == 0 ? "Euler" : "Everything"; });
+
+/// ros_to_trk as a nodelet, loaded anew for every chip.
+class ThroughTf : public ThereAndBack {
+ protected:
+  using Picture = std::tuple<double, double, int, int, int, int>;
+
+  static Picture picture_of(const wire::CameraConstants& c) {
+    return {c.chip_width, c.chip_height, c.blank_left, c.blank_right, c.blank_top, c.blank_bottom};
+  }
+
+  void load(const std::string& name, const wire::CameraConstants& c, const Receiver& receiver) {
+    const auto set_one = [&name](const char* key, const auto& value) { ::ros::param::set(name + "/" + key, value); };
+    set_one("sinks", std::vector<std::string>{receiver.url()});
+    set_one("input", "tf");
+    set_one("rate", 500.0);
+    set_one("preset", "orad");
+    set_one("camera_frame", camera + "_optical");
+    set_one("camera_frame_is_optical", true);
+    set_one("chip_width", c.chip_width);
+    set_one("chip_height", c.chip_height);
+    set_one("blank_left", c.blank_left);
+    set_one("blank_right", c.blank_right);
+    set_one("blank_top", c.blank_top);
+    set_one("blank_bottom", c.blank_bottom);
+    nodelet::NodeletLoad request;
+    request.request.name = name;
+    request.request.type = "trk_bridge/RosToTrk";
+    request.request.remap_source_args = {name.substr(0, name.find_last_of('/')) + "/camera_info"};
+    request.request.remap_target_args = {name_space + "/camera_info"};
+    ASSERT_TRUE(::ros::service::waitForService("/manager/load_nodelet", ::ros::Duration(20)));
+    ASSERT_TRUE(::ros::service::call("/manager/load_nodelet", request) && request.response.success);
+  }
+
+  void unload(const std::string& name) {
+    nodelet::NodeletUnload request;
+    request.request.name = name;
+    ASSERT_TRUE(::ros::service::call("/manager/unload_nodelet", request) && request.response.success);
+  }
+};
+
+TEST_F(ThroughTf, EveryCaseIsTheSameCamera) {
+  std::map<Picture, std::vector<WorkedCase>> by_picture;
+  for (const auto& one : worked_cases()) by_picture[picture_of(one.constants)].push_back(one);
+  int loaded = 0;
+  std::size_t cases = 0;
+  for (const auto& [picture, ones] : by_picture) {
+    const std::string name = "/chip" + std::to_string(++loaded) + "/ros_to_trk";
+    Receiver receiver;
+    ASSERT_NO_FATAL_FAILURE(load(name, ones.front().constants, receiver));
+    for (const auto& one : ones) {
+      expect_back(one, receiver,
+                  [&one](const camera::Camera& back) { return same_to_the_eye(back, one.camera, one.constants); });
+      if (HasFailure()) return;
+    }
+    for (std::size_t i = 0; i < receiver.params.size(); ++i) EXPECT_EQ(receiver.params[i].counter, i + 1);
+    ASSERT_NO_FATAL_FAILURE(unload(name));
+    cases += ones.size();
+  }
+  EXPECT_EQ(cases, 256u);
+}
+
+}  // namespace
+}  // namespace trk_bridge::test
