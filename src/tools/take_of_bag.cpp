@@ -2,6 +2,7 @@
 
 #include "bag_take.h"
 #include "bag_timing.h"
+#include "trk_bridge/transport/part_file.h"
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/transport/take_file.h"
 
@@ -36,6 +37,7 @@ void write(const BagFields& fields, const transport::TimeCode& code, const std::
 
 void take_of_bag(const std::string& bag_path, const std::string& take_path, const BagToTakeOptions& options,
                  LongRun& run, std::ostream& err) {
+  transport::PartFile::check_target(take_path, options.overwrite);
   try {
     BagFile bag(bag_path, run);
     const auto camera = choose_camera(bag.connections(), options.camera, options.input);

@@ -85,13 +85,16 @@ std::string directory_of(const std::string& path) {
 
 PartFile::PartFile(std::string path, bool overwrite)
     : path_(std::move(path)), part_(path_ + ".part"), directory_(directory_of(path_)), overwrite_(overwrite) {
-  if (path_.empty()) fail("\"\"", "a file needs a name");
-  struct stat there {};
-  if (::lstat(path_.c_str(), &there) == 0) {
-    if (S_ISDIR(there.st_mode)) fail(path_, "it is a directory");
-    if (!overwrite_) fail(path_, "it exists; overwriting it has to be asked for (overwrite=1, --overwrite)");
-  }
+  check_target(path_, overwrite_);
   fd_ = create_locked(part_, overwrite_);
+}
+
+void PartFile::check_target(const std::string& path, bool overwrite) {
+  if (path.empty()) fail("\"\"", "a file needs a name");
+  struct stat there {};
+  if (::lstat(path.c_str(), &there) != 0) return;
+  if (S_ISDIR(there.st_mode)) fail(path, "it is a directory");
+  if (!overwrite) fail(path, "it exists; overwriting it has to be asked for (overwrite=1, --overwrite)");
 }
 
 PartFile::~PartFile() { close(); }

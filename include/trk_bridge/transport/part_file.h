@@ -22,6 +22,9 @@ class PartFile {
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
+  /// Throws what the constructor throws because of the final name, for work that should not be done in vain.
+  static void check_target(const std::string& path, bool overwrite);
+
   bool is_open() const noexcept { return fd_ >= 0; }
   int fd() const noexcept { return fd_; }
   const std::string& path() const noexcept { return path_; }

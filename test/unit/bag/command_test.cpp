@@ -48,6 +48,7 @@ TEST_F(BagCommandTest, ExistingTargetsNeedOverwrite) {
   EXPECT_EQ(run({take, bag, "--overwrite"}), 0) << said;
   test::write_text(directory / "back.trk", "precious");
   EXPECT_EQ(run({bag, directory / "back.trk"}), 1);
+  EXPECT_THAT(said, HasSubstr("back.trk: cannot be written: it exists"));
   EXPECT_EQ(test::read_text(directory / "back.trk"), "precious");
 }
 
