@@ -5,9 +5,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <geometry_msgs/TransformStamped.h>
 #include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/JointState.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 #include <trk_bridge/CameraParams.h>
@@ -21,8 +23,8 @@ namespace {
 constexpr double metres = 1e-4;        // may lie between what the crane did and what came back
 constexpr double degrees = 1e-3;       // so may these
 constexpr double pixels = 1e-3;        // and these of every element of K
-const ::ros::Duration long_enough(4);  // of moving samples
-constexpr std::size_t enough = 150;    // samples
+const ::ros::Duration long_enough(5);  // of moving samples
+constexpr std::size_t enough = 120;    // samples
 constexpr std::chrono::seconds patience{60};
 
 /// roslaunch and all its nodes, ended with the test.
@@ -49,16 +51,21 @@ class Launched {
   bool ended_ = false;
 };
 
+std::vector<std::string> crane_launch(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"/usr/bin/env", "roslaunch",   "trk_bridge",
+                                 "crane.launch", "rviz:=false", "endpoint:=" + udp_url(free_udp_port())};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
 double degrees_between(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) {
   return Eigen::Quaterniond(one.linear()).angularDistance(Eigen::Quaterniond(other.linear())) * 180 / M_PI;
 }
 
-/// Null when none of this stamp was recorded.
-const sensor_msgs::CameraInfo* info_of(const Recorder<sensor_msgs::CameraInfo>& recorder, const ::ros::Time& stamp) {
-  const auto found =
-      std::lower_bound(recorder.messages.begin(), recorder.messages.end(), stamp,
-                       [](const auto& info, const ::ros::Time& time) { return info.header.stamp < time; });
-  return found != recorder.messages.end() && found->header.stamp == stamp ? &*found : nullptr;
+bool agree(const sensor_msgs::CameraInfo& one, const sensor_msgs::CameraInfo& other) {
+  const auto near = [](double a, double b) { return std::abs(a - b) <= pixels; };
+  return one.width == other.width && one.height == other.height &&
+         std::equal(one.K.begin(), one.K.end(), other.K.begin(), near);
 }
 
 class CraneThereAndBack : public ::testing::TestWithParam<const char*> {
@@ -69,15 +76,24 @@ class CraneThereAndBack : public ::testing::TestWithParam<const char*> {
         crane_info_("/crane/camera_info"),
         returned_info_("/returned/camera_info"),
         listener_(transforms_),
-        launched_({"/usr/bin/env", "roslaunch", "trk_bridge", "crane.launch", "rviz:=false",
-                   "endpoint:=" + udp_url(free_udp_port()), std::string("preset:=") + GetParam()}) {}
+        launched_(crane_launch({std::string("preset:=") + GetParam()})) {}
 
   /// Both cameras have moved long enough, and were told often enough meanwhile.
   bool moved() const {
     const auto spans = [](const auto& messages) {
-      return messages.size() > enough && messages.back().header.stamp - messages.front().header.stamp > long_enough;
+      return messages.size() > 2 * enough && messages.back().header.stamp - messages.front().header.stamp > long_enough;
     };
     return spans(sent_.messages) && spans(returned_.messages);
+  }
+
+  /// Times of the crane by counter. The first second is left out: nodes find each other then.
+  std::map<std::uint64_t, ::ros::Time> crane_times() const {
+    std::map<std::uint64_t, ::ros::Time> times;
+    for (const auto& message : sent_.messages) {
+      const ::ros::Time& time = message.header.stamp;
+      if (time - sent_.messages.front().header.stamp > ::ros::Duration(1)) times[message.counter] = time;
+    }
+    return times;
   }
 
   /// Of a frame in the studio; none when tf does not tell it.
@@ -86,16 +102,21 @@ class CraneThereAndBack : public ::testing::TestWithParam<const char*> {
     return ros1::to_isometry(transforms_.lookupTransform("studio", frame, stamp).transform);
   }
 
-  void expect_same_lens(const ::ros::Time& of_crane, const ::ros::Time& of_returned) {
-    const sensor_msgs::CameraInfo *crane = nullptr, *returned = nullptr;
-    ASSERT_TRUE(eventually([&] {
-      crane = info_of(crane_info_, of_crane);
-      returned = info_of(returned_info_, of_returned);
-      return crane != nullptr && returned != nullptr;
-    }));
-    ASSERT_EQ(crane->width, returned->width);
-    ASSERT_EQ(crane->height, returned->height);
-    for (std::size_t i = 0; i < crane->K.size(); ++i) ASSERT_NEAR(crane->K[i], returned->K[i], pixels) << "K " << i;
+  /// How much older than its pose the crane's CameraInfo is that came back with it; none when it is another one.
+  std::optional<::ros::Duration> lag_of_lens(const ::ros::Time& of_crane, const ::ros::Time& of_returned) {
+    const auto& infos = returned_info_.messages;
+    const auto earlier = [](const auto& info, const ::ros::Time& time) { return info.header.stamp < time; };
+    auto returned = infos.end();
+    const auto came = [&] {
+      returned = std::lower_bound(infos.begin(), infos.end(), of_returned, earlier);
+      return returned != infos.end() && !crane_info_.messages.empty() &&
+             crane_info_.messages.back().header.stamp >= of_crane;
+    };
+    if (!eventually(came) || returned->header.stamp != of_returned) return std::nullopt;
+    for (auto crane = crane_info_.messages.rbegin(); crane != crane_info_.messages.rend(); ++crane) {
+      if (crane->header.stamp <= of_crane && agree(*crane, *returned)) return of_crane - crane->header.stamp;
+    }
+    return std::nullopt;
   }
 
   Recorder<trk_bridge::CameraParams> sent_, returned_;
@@ -107,14 +128,12 @@ class CraneThereAndBack : public ::testing::TestWithParam<const char*> {
 
 TEST_P(CraneThereAndBack, BothCamerasCoincide) {
   ASSERT_TRUE(eventually([this] { return moved(); }, patience)) << launched_.end();
-  std::map<std::uint64_t, ::ros::Time> crane_time;
-  for (const auto& message : sent_.messages) crane_time[message.counter] = message.header.stamp;
-
-  std::size_t compared = 0;
+  const auto times = crane_times();
+  std::size_t compared = 0, with_their_lens = 0;
   Eigen::AlignedBox3d covered;
-  for (const auto& message : returned_.messages) {
-    const auto found = crane_time.find(message.counter);
-    if (found == crane_time.end()) continue;  // sent before this test listened
+  for (const auto& message : std::vector(returned_.messages)) {
+    const auto found = times.find(message.counter);
+    if (found == times.end()) continue;
     SCOPED_TRACE("counter " + std::to_string(message.counter));
     for (const std::string axes : {"", "_optical"}) {
       const auto crane = pose("camera" + axes, found->second), returned = pose("returned" + axes, message.header.stamp);
@@ -123,11 +142,43 @@ TEST_P(CraneThereAndBack, BothCamerasCoincide) {
       ASSERT_LE(degrees_between(*crane, *returned), degrees);
       covered.extend(crane->translation());
     }
-    ASSERT_NO_FATAL_FAILURE(expect_same_lens(found->second, message.header.stamp));
+    const auto lag = lag_of_lens(found->second, message.header.stamp);
+    ASSERT_TRUE(lag) << "no CameraInfo of the crane has this K";
+    EXPECT_LT(lag->toSec(), 0.1);
+    if (lag->isZero()) ++with_their_lens;
     ++compared;
   }
-  EXPECT_GE(compared, enough - 10) << "but for the few before both topics were heard";
+  EXPECT_GE(compared, enough);
+  // Where a CameraInfo is late on a busy machine, the one before goes with the pose.
+  EXPECT_GE(with_their_lens, compared * 9 / 10);
   EXPECT_GT(covered.diagonal().norm(), 0.5) << "m that the camera moved meanwhile";
+}
+
+TEST(Crane, TakesJointStatesFromElsewhere) {
+  const auto publisher = ::ros::NodeHandle().advertise<sensor_msgs::JointState>("/joint_states", 100);
+  Recorder<sensor_msgs::JointState> joint_states("/joint_states");
+  Recorder<trk_bridge::CameraParams> returned("/returned/params");
+  Launched launched(crane_launch({"joints:=external"}));
+  sensor_msgs::JointState all_zero;
+  all_zero.name = {"column_pan", "arm_elevation", "arm_extension", "head_pan", "head_tilt", "head_roll"};
+  all_zero.position.assign(all_zero.name.size(), 0.0);
+  ASSERT_TRUE(eventually(
+      [&] {
+        all_zero.header.stamp = ::ros::Time::now();
+        publisher.publish(all_zero);
+        return returned.messages.size() > 20;
+      },
+      patience))
+      << launched.end();
+  // The arm level and drawn in, the camera looking along it, hung below its end.
+  const auto& camera = returned.messages.back();
+  EXPECT_NEAR(camera.x, -2, 1e-9);
+  EXPECT_NEAR(camera.y, -3 + 5 + 0.12, 1e-9);
+  EXPECT_NEAR(camera.z, 1.5 - 0.36 - 0.34, 1e-9);
+  EXPECT_NEAR(camera.pan, 0, 1e-9);
+  EXPECT_NEAR(camera.tilt, 0, 1e-9);
+  EXPECT_NEAR(camera.roll, 0, 1e-9);
+  for (const auto& message : joint_states.messages) EXPECT_EQ(message.position, all_zero.position);
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, CraneThereAndBack, ::testing::Values("pixotope", "orad"));
