@@ -35,7 +35,7 @@ void ParamsInput::take(const trk_bridge::CameraParams& message) {
 
 void ParamsInput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
   trk_bridge::ros1::ParamsReport report{statistics_.load(), params_.getTopic(), steady_now()};
-  const auto found = trk_bridge::ros1::findings(report, last_report_, form_);
+  const auto found = trk_bridge::ros1::findings(report, last_report_);
   trk_bridge::ros1::fill(status, found, report, last_report_, form_);
   log_.tell(found);
   last_report_ = std::move(report);

@@ -130,7 +130,7 @@ const char* constants_text(const ParamsToTrkStatistics& params) {
 
 }  // namespace
 
-std::vector<Finding> findings(const ParamsReport& now, const ParamsReport& before, const OutgoingForm& form) {
+std::vector<Finding> findings(const ParamsReport& now, const ParamsReport& before) {
   std::vector<Finding> found{state(now, before)};
   add_outgoing_findings(found, now.params.outgoing, before.params.outgoing);
   if (now.params.bad_constants > before.params.bad_constants) {
@@ -138,8 +138,7 @@ std::vector<Finding> findings(const ParamsReport& now, const ParamsReport& befor
                      "constants ignored: " + camera::describe(camera::CameraReason::bad_constants)});
   }
   if (!now.params.constants_known && now.params.received > 0) {
-    found.push_back({Condition::no_constants, DiagnosticStatus::WARN,
-                     "no constants yet: receivers are told none, format '" + wire::format_to_words(form.format) + "'"});
+    found.push_back({Condition::no_constants, DiagnosticStatus::WARN, "no constants yet: receivers are told none"});
   }
   return found;
 }

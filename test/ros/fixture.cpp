@@ -70,15 +70,17 @@ std::string DiagnosticsRecorder::value(const std::string& name, const std::strin
 
 std::string udp_url(std::uint16_t port) { return "udp://127.0.0.1:" + std::to_string(port); }
 
-NodeTest::NodeTest(const std::string& of_program) : program(of_program) {
+NodeTest::NodeTest(const std::string& of_program) : program_path(of_program) {
   static std::atomic<int> made{0};
   camera = "camera" + std::to_string(++made);
   name_space = "/" + camera;
-  node_name = name_space + program.substr(program.find_last_of('/'));
+  node_name = name_space + program_path.substr(program_path.find_last_of('/'));
   set("diagnostic_period", 0.1);
 }
 
-void NodeTest::start() { node = std::make_unique<Program>(std::vector<std::string>{program, "__ns:=" + name_space}); }
+void NodeTest::start() {
+  node = std::make_unique<Program>(std::vector<std::string>{program_path, "__ns:=" + name_space});
+}
 
 ::testing::AssertionResult NodeTest::starts(const std::string& told_of) {
   start();

@@ -110,7 +110,7 @@ class NodeTest : public ::testing::Test {
   std::string status_name(const std::string& of_camera) const { return node_name.substr(1) + ": " + of_camera; }
   std::string status_name() const { return status_name(camera); }
 
-  std::string program;
+  std::string program_path;
   std::string camera;      ///< its name, unique in this run
   std::string name_space;  ///< "/" + camera
   std::string node_name;

@@ -48,7 +48,7 @@ struct SinkReport {
 
 /// What `now` tells, the state first and then what has gone wrong since `before` (the look before it; of counters, only
 /// their growth is a finding). Nothing sent for a second, or five periods of `rate` where these are longer, is one.
-std::vector<Finding> findings(const ParamsReport& now, const ParamsReport& before, const OutgoingForm& form);
+std::vector<Finding> findings(const ParamsReport& now, const ParamsReport& before);
 std::vector<Finding> findings(const TfReport& now, const TfReport& before, double rate);
 std::vector<Finding> findings(const SinkReport& now, const SinkReport& before);
 

@@ -46,7 +46,7 @@ class ParamsDiagnostics : public ::testing::Test {
   }
 
   diagnostic_updater::DiagnosticStatusWrapper status() const {
-    return filled(findings(now, before, form), now, before, form);
+    return filled(findings(now, before), now, before, form);
   }
 
   OutgoingForm form;
