@@ -22,6 +22,7 @@ function(trk_bridge_library name)
   add_library(${name} SHARED ${ARG_UNPARSED_ARGUMENTS})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} trk_bridge_options)
+  set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN")
   install(TARGETS ${name} LIBRARY DESTINATION ${TRK_BRIDGE_LIB_DIR} ARCHIVE DESTINATION ${TRK_BRIDGE_LIB_DIR})
 endfunction()
 
@@ -30,6 +31,9 @@ function(trk_bridge_program name)
   cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
   add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} trk_bridge_options)
+  # Installed programs find their libraries wherever the tree lies.
+  file(RELATIVE_PATH to_libraries "/${TRK_BRIDGE_TOOL_DIR}" "/${TRK_BRIDGE_LIB_DIR}")
+  set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
   install(TARGETS ${name} RUNTIME DESTINATION ${TRK_BRIDGE_TOOL_DIR})
 endfunction()
 
