@@ -88,7 +88,8 @@ inline wire::CameraParams case_params_of(const rapidjson::Value& v) {
   p.format = v["format"].GetUint();
   if (v.HasMember("euler")) {
     const auto& e = v["euler"];
-    p.euler = {e[0].GetDouble(), e[1].GetDouble(), e[2].GetDouble(), e[3].GetDouble(), e[4].GetDouble(), e[5].GetDouble()};
+    p.euler = {e[0].GetDouble(), e[1].GetDouble(), e[2].GetDouble(),
+               e[3].GetDouble(), e[4].GetDouble(), e[5].GetDouble()};
   } else {
     for (rapidjson::SizeType i = 0; i < 16; ++i) p.matrix[i] = v["matrix_columns"][i].GetDouble();
   }

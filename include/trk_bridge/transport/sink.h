@@ -15,13 +15,13 @@
 namespace trk_bridge::transport {
 
 enum class SinkReason : std::uint8_t {
-  not_encodable,  ///< `fault` says which field
-  no_constants,  ///< a file begins with constants: none were written before the first parameters
+  not_encodable,      ///< `fault` says which field
+  no_constants,       ///< a file begins with constants: none were written before the first parameters
   constants_changed,  ///< a file holds one set of constants: others came, or parameters that belong to them
-  other_camera,  ///< a file holds one camera: the id is not that of its constants
-  system,  ///< the kernel refused: `error_number`
-  gone,  ///< the segment was removed; the sink tries to make it anew at the next write
-  closed,  ///< close() was called before
+  other_camera,       ///< a file holds one camera: the id is not that of its constants
+  system,             ///< the kernel refused: `error_number`
+  gone,               ///< the segment was removed; the sink tries to make it anew at the next write
+  closed,             ///< close() was called before
 };
 
 struct SinkFault {
@@ -47,8 +47,8 @@ class Sink {
   [[nodiscard]] virtual tl::expected<void, SinkFault> write(const wire::CameraParams&) = 0;
   /// Sends constants if they differ from the last ones of that id, and remembers them for repeating.
   [[nodiscard]] virtual tl::expected<void, SinkFault> write(const wire::CameraConstants&) = 0;
-  /// Ends orderly: what is buffered goes out, a file gets its final name. The destructor does it, too, but cannot say how
-  /// it went.
+  /// Ends orderly: what is buffered goes out, a file gets its final name. The destructor does it, too, but cannot say
+  /// how it went.
   [[nodiscard]] virtual tl::expected<void, SinkFault> close() = 0;
 
   virtual SinkStatistics statistics() const = 0;

@@ -30,12 +30,12 @@ struct Sample {
 
 /// What one call of Source::receive met.
 enum class Event : std::uint8_t {
-  sample,  ///< `Reception::sample` is good
+  sample,     ///< `Reception::sample` is good
   malformed,  ///< one record was not sound: `fault`, `sample.sender` and `sample.arrival` tell of it; go on
-  idle,  ///< nothing came within the time given
-  stopped,  ///< stop() was called; every later call says so at once
-  ended,  ///< the last record of a file was given
-  failed,  ///< the source cannot go on: statistics().error says why
+  idle,       ///< nothing came within the time given
+  stopped,    ///< stop() was called; every later call says so at once
+  ended,      ///< the last record of a file was given
+  failed,     ///< the source cannot go on: statistics().error says why
 };
 
 /// Filled by receive(); reuse one, so that nothing allocates.
@@ -46,10 +46,10 @@ struct Reception {
 
 /// How far a source has come. "Connected" is only ever said after a valid record.
 enum class SourceState : std::uint8_t {
-  waiting,  ///< for a segment, or bound and nothing received
+  waiting,        ///< for a segment, or bound and nothing received
   nothing_valid,  ///< something comes, but none of it is trk
-  only_refused,  ///< something comes, but only from senders that are not allowed
-  receiving,  ///< at least one valid record has come
+  only_refused,   ///< something comes, but only from senders that are not allowed
+  receiving,      ///< at least one valid record has come
   ended,
   failed,
 };
@@ -58,13 +58,13 @@ struct SourceStatistics {
   SourceState state = SourceState::waiting;
   std::uint64_t records = 0;  ///< valid ones handed out
   std::uint64_t malformed = 0;
-  std::uint64_t refused = 0;  ///< datagrams of senders that are not allowed
-  std::uint64_t kernel_drops = 0;  ///< datagrams the kernel threw away because nobody read in time
-  std::uint64_t overwritten = 0;  ///< shared memory: sets written and replaced before they were seen
+  std::uint64_t refused = 0;              ///< datagrams of senders that are not allowed
+  std::uint64_t kernel_drops = 0;         ///< datagrams the kernel threw away because nobody read in time
+  std::uint64_t overwritten = 0;          ///< shared memory: sets written and replaced before they were seen
   std::uint64_t unknown_format_bits = 0;  ///< records with bits above wire::known_format_bits
-  std::uint64_t reattached = 0;  ///< shared memory: segments followed after the first
+  std::uint64_t reattached = 0;           ///< shared memory: segments followed after the first
   Sender last_refused;
-  std::string error;  ///< when failed: one line for a person
+  std::string error;        ///< when failed: one line for a person
   std::string waiting_for;  ///< when waiting: "slot 7: no segment", "udp port 7000: bound, nothing received yet"
 };
 
@@ -92,8 +92,8 @@ class Source {
 };
 
 /// The only place that makes sources. Throws TransportError: a port in use, an address of no interface, a file with an
-/// error in line N (`take.trk:57: field 9 is not a number`), … A shared memory slot that does not exist yet is no error.
-/// `field_rate` (Hz) counts for files whose endpoint has no `rate`.
+/// error in line N (`take.trk:57: field 9 is not a number`), … A shared memory slot that does not exist yet is no
+/// error. `field_rate` (Hz) counts for files whose endpoint has no `rate`.
 std::unique_ptr<Source> open_source(const Endpoint&, double field_rate = 50.0);
 /// The same from a URL; its errors are TransportErrors, too.
 std::unique_ptr<Source> open_source(std::string_view url, double field_rate = 50.0);
