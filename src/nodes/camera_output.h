@@ -8,10 +8,10 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "finding_log.h"
-#include "snapshot.h"
 #include "trk_bridge/ros/camera_pipeline.h"
 #include "trk_bridge/ros/diagnostics.h"
 #include "trk_bridge/ros/trk_to_ros_parameters.h"
+#include "trk_bridge/transport/snapshot.h"
 
 namespace trk_bridge::nodes {
 

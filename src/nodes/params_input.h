@@ -7,9 +7,9 @@
 #include <trk_bridge/CameraParams.h>
 
 #include "finding_log.h"
-#include "snapshot.h"
 #include "trk_bridge/ros/outgoing_diagnostics.h"
 #include "trk_bridge/ros/params_to_trk.h"
+#include "trk_bridge/transport/snapshot.h"
 #include "trk_input.h"
 
 namespace trk_bridge::nodes {

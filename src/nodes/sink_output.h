@@ -7,10 +7,10 @@
 #include <string>
 
 #include "finding_log.h"
-#include "snapshot.h"
 #include "trk_bridge/ros/outgoing.h"
 #include "trk_bridge/ros/outgoing_diagnostics.h"
 #include "trk_bridge/transport/sink.h"
+#include "trk_bridge/transport/snapshot.h"
 
 namespace trk_bridge::nodes {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "camera_output.h"
-#include "snapshot.h"
 #include "trk_bridge/ros/diagnostics.h"
+#include "trk_bridge/transport/snapshot.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::nodes {

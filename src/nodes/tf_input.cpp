@@ -6,6 +6,9 @@
 namespace trk_bridge::nodes {
 namespace {
 
+/// How often a tick looks again for a pose that is late.
+constexpr int late_looks = 20;
+
 ::ros::TransportHints no_delay() { return ::ros::TransportHints().tcpNoDelay(); }
 
 }  // namespace
@@ -51,15 +54,22 @@ void TfInput::take(const sensor_msgs::CameraInfo& message) {
   changed_.notify_all();
 }
 
+bool TfInput::wait_until(Clock::time_point time) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return !changed_.wait_until(lock, time, [this] { return stopping_; });
+}
+
 void TfInput::run() {
   auto deadline = Clock::now();
-  for (;;) {
-    {
-      std::unique_lock<std::mutex> lock(mutex_);
-      if (changed_.wait_until(lock, deadline, [this] { return stopping_; })) return;
-    }
-    look();
+  while (wait_until(deadline)) {
     deadline += period_;
+    // A pose that comes a little late is this tick's. Left for the next one, it would cost one of two where tf comes at
+    // our own rate.
+    for (auto again = Clock::now(); !look();) {
+      again += period_ / late_looks;
+      if (again >= deadline) break;
+      if (!wait_until(again)) return;
+    }
     // Looks that were missed are left out: two at once would find the same pose.
     if (const auto now = Clock::now(); deadline < now) deadline += (now - deadline) / period_ * period_ + period_;
   }
@@ -73,26 +83,27 @@ TfInput::Pose TfInput::newest_pose() const {
   }
 }
 
-void TfInput::look() {
+bool TfInput::look() {
   const auto pose = newest_pose();
   trk_bridge::ros1::Outgoing outgoing;
   {
     std::unique_lock<std::mutex> lock(mutex_);
     pose_fault_ = pose ? std::string() : pose.error();
-    if (!pose) return;
+    if (!pose) return true;
     const auto& stamp = pose->header.stamp;
     last_pose_ = static_cast<std::int64_t>(stamp.toNSec());
-    if (!converter_.is_new(stamp)) return;
+    if (!converter_.is_new(stamp)) return false;
     // tf and camera_info of one moment come on connections of their own.
     changed_.wait_for(lock, period_ / 4, [&] { return stopping_ || !converter_.expects_lens(stamp); });
-    if (stopping_) return;
+    if (stopping_) return true;
     outgoing = converter_.make(*pose, steady_now());
   }
-  if (!outgoing.params) return;
+  if (!outgoing.params) return true;
   write_(outgoing);
   trk_bridge::ros1::to_msg(*outgoing.params, sent_message_);
   sent_message_.header = pose->header;
   sent_.publish(sent_message_);
+  return true;
 }
 
 void TfInput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {

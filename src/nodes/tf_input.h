@@ -23,7 +23,7 @@
 namespace trk_bridge::nodes {
 
 /// A thread of its own looks at tf at the rate of the parameters, by the steady clock and without drift, and writes a
-/// set when there is a newer pose.
+/// set when there is a newer pose; one that is late is written as soon as it is there.
 /// What was written is told on the topic `sent` as well, stamped with the time of its pose: trk has no times, so that
 /// only the counter tells a receiver's pose from the next.
 class TfInput : public TrkInput {
@@ -39,7 +39,10 @@ class TfInput : public TrkInput {
   using Pose = tl::expected<geometry_msgs::TransformStamped, std::string>;
 
   void run();
-  void look();
+  /// False when the input is to end before.
+  bool wait_until(Clock::time_point);
+  /// Writes a set when there is a newer pose. False when there is a pose, but the newest is known already.
+  bool look();
   Pose newest_pose() const;
   void take(const sensor_msgs::CameraInfo&);
 

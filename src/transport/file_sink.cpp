@@ -1,7 +1,7 @@
 #include <utility>
 
 #include "backends.h"
-#include "snapshot.h"
+#include "trk_bridge/transport/snapshot.h"
 #include "trk_bridge/transport/take_file.h"
 
 namespace trk_bridge::transport {

@@ -8,8 +8,8 @@
 
 #include "backends.h"
 #include "readable.h"
-#include "snapshot.h"
 #include "stop_event.h"
+#include "trk_bridge/transport/snapshot.h"
 #include "trk_bridge/transport/take_file.h"
 #include "trk_bridge/wire/format.h"
 

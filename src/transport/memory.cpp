@@ -10,7 +10,7 @@
 
 #include "backends.h"
 #include "readable.h"
-#include "snapshot.h"
+#include "trk_bridge/transport/snapshot.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::transport {

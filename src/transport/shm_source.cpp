@@ -5,9 +5,9 @@
 #include <poll.h>
 
 #include "backends.h"
-#include "snapshot.h"
 #include "stop_event.h"
 #include "trk_bridge/transport/shm_link.h"
+#include "trk_bridge/transport/snapshot.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::transport {

@@ -10,9 +10,9 @@
 #include "backends.h"
 #include "descriptor.h"
 #include "multicast.h"
-#include "snapshot.h"
 #include "socket_address.h"
 #include "socket_option.h"
+#include "trk_bridge/transport/snapshot.h"
 #include "url.h"
 
 namespace trk_bridge::transport {

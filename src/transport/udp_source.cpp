@@ -18,9 +18,9 @@
 #include "multicast.h"
 #include "readable.h"
 #include "sender_layouts.h"
-#include "snapshot.h"
 #include "socket_address.h"
 #include "socket_option.h"
+#include "trk_bridge/transport/snapshot.h"
 #include "trk_bridge/wire/format.h"
 #include "url.h"
 
