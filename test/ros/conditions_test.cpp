@@ -22,7 +22,8 @@ class Conditions : public NodeTest {
     transforms.emplace("/tf", camera);
     ASSERT_TRUE(starts());
     ASSERT_TRUE(eventually([this] {
-      return params->connected() && constants->connected() && infos->connected() && transforms->connected();
+      return params->connected_to(node_name) && constants->connected_to(node_name) && infos->connected_to(node_name) &&
+             transforms->connected_to(node_name);
     }));
     tracker.emplace(port);
   }

@@ -5,6 +5,10 @@
 #include <utility>
 
 #include <ros/callback_queue.h>
+#include <ros/master.h>
+#include <ros/network.h>
+#include <ros/this_node.h>
+#include <xmlrpcpp/XmlRpcClient.h>
 
 namespace trk_bridge::test {
 
@@ -16,6 +20,27 @@ bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds
     ::ros::getGlobalCallbackQueue()->callAvailable(::ros::WallDuration(0.005));
   }
   return true;
+}
+
+bool is_served(const ::ros::Subscriber& subscriber, const std::string& publisher) {
+  XmlRpc::XmlRpcValue request, response, uri;
+  request[0] = ::ros::this_node::getName();
+  request[1] = publisher;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!::ros::master::execute("lookupNode", request, response, uri, /*wait_for_master=*/false)) return false;
+  if (!::ros::network::splitURI(uri, host, port)) return false;
+  XmlRpc::XmlRpcClient node(host.c_str(), static_cast<int>(port));
+  XmlRpc::XmlRpcValue name, answer;
+  name[0] = ::ros::this_node::getName();
+  if (!node.execute("getBusInfo", name, answer) || node.isFault()) return false;
+  XmlRpc::XmlRpcValue& connections = answer[2];
+  for (int i = 0; i < connections.size(); ++i) {
+    XmlRpc::XmlRpcValue& connection = connections[i];
+    const std::string to = connection[1], direction = connection[2], topic = connection[4];
+    if (to == ::ros::this_node::getName() && direction == "o" && topic == subscriber.getTopic()) return true;
+  }
+  return false;
 }
 
 TransformRecorder::TransformRecorder(const std::string& topic, std::string child) {

@@ -23,6 +23,10 @@ namespace trk_bridge::test {
 /// Handles ROS callbacks until `condition` is met or the deadline has passed; whether it was met.
 bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds within = deadline);
 
+/// Whether the node `publisher` sends what it publishes to this subscriber. Asked of the publisher: a subscriber
+/// believes so before the other end knows of it, and /tf has other publishers.
+bool is_served(const ::ros::Subscriber& subscriber, const std::string& publisher);
+
 /// Messages of one topic, in order of arrival.
 template <typename Message>
 class Recorder {
@@ -31,7 +35,7 @@ class Recorder {
     subscriber_ = ::ros::NodeHandle().subscribe<Message>(
         topic, 10000, [this](const boost::shared_ptr<const Message>& message) { messages.push_back(*message); });
   }
-  bool connected() const { return subscriber_.getNumPublishers() > 0; }
+  bool connected_to(const std::string& publisher) const { return is_served(subscriber_, publisher); }
 
   std::vector<Message> messages;
 
@@ -43,7 +47,7 @@ class Recorder {
 class TransformRecorder {
  public:
   TransformRecorder(const std::string& topic, std::string child);
-  bool connected() const { return subscriber_.getNumPublishers() > 0; }
+  bool connected_to(const std::string& publisher) const { return is_served(subscriber_, publisher); }
 
   std::vector<geometry_msgs::TransformStamped> transforms;
 

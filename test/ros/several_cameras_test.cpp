@@ -31,8 +31,10 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
   TransformRecorder frame_one("/tf", "crane1"), frame_two("/tf", "crane2"), frame_three("/tf", "pedestal_head");
   TransformRecorder optical("/tf_static", "pedestal_optical");
   ASSERT_TRUE(starts("pedestal"));
-  ASSERT_TRUE(
-      eventually([&] { return one.connected() && two.connected() && three.connected() && frame_one.connected(); }));
+  ASSERT_TRUE(eventually([&] {
+    return one.connected_to(node_name) && two.connected_to(node_name) && three.connected_to(node_name) &&
+           frame_one.connected_to(node_name);
+  }));
 
   Tracker tracker(port);
   auto sink = transport::open_sink(slot);

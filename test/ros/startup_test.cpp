@@ -94,7 +94,7 @@ TEST_F(InManager, PublishesUntilItIsUnloadedAndCanBeLoadedAgain) {
   for (std::uint64_t round = 1; round <= 2; ++round) {
     TransformRecorder transforms("/tf", camera);
     ASSERT_TRUE(load());
-    ASSERT_TRUE(eventually([&] { return transforms.connected(); }));
+    ASSERT_TRUE(eventually([&] { return transforms.connected_to("/manager"); }));
     Tracker tracker(port);
     tracker.send(test::params(round));
     EXPECT_TRUE(eventually([&] { return transforms.transforms.size() == 1; }));

@@ -27,7 +27,9 @@ class WorkedCases : public NodeTest, public ::testing::WithParamInterface<wire::
     transforms.emplace("/tf", camera);
     statics.emplace("/tf_static", camera + "_optical");
     ASSERT_TRUE(starts());
-    ASSERT_TRUE(eventually([this] { return params->connected() && infos->connected() && transforms->connected(); }));
+    ASSERT_TRUE(eventually([this] {
+      return params->connected_to(node_name) && infos->connected_to(node_name) && transforms->connected_to(node_name);
+    }));
     tracker.emplace(port);
   }
 
