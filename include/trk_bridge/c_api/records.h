@@ -61,7 +61,7 @@ inline wire::CameraConstants from_c(const trkCameraConstants& c) noexcept {
 
 /// Whether a program passed something that may be written.
 inline bool is_writable(const trkCameraParams* params) {
-  return params != nullptr && wire::check_writable(params->format).has_value();
+  return params != nullptr && wire::is_writable(params->format);
 }
 inline bool is_writable(const trkCameraConstants* constants) { return constants != nullptr; }
 
