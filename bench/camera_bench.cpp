@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "trk_bridge/camera/calibration.h"
+#include "trk_bridge/camera/figure.h"
 #include "trk_bridge/camera/image.h"
 #include "trk_bridge/wire/format.h"
 
@@ -77,6 +78,17 @@ void lens_of(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(camera::lens_of(calibration.k, d, constants));
 }
 BENCHMARK(lens_of);
+
+void image_border(benchmark::State& state, double tangential) {
+  camera::Calibrator calibrator;
+  const auto calibration = calibrator.calibrate(strong, constants).value();
+  camera::ViewingLens lens{calibration.k, {}, calibration.width, calibration.height};
+  lens.d.assign(calibration.distortion.d.begin(), calibration.distortion.d.end());
+  lens.d[2] = lens.d[3] = tangential;
+  for (auto _ : state) benchmark::DoNotOptimize(camera::image_border(lens));
+}
+BENCHMARK_CAPTURE(image_border, radial, 0);
+BENCHMARK_CAPTURE(image_border, tangential, 1e-3);
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 
 #include "random_cameras.h"
 #include "trk_bridge/camera/calibration.h"
+#include "trk_bridge/camera/figure.h"
 #include "trk_bridge/camera/image.h"
 
 namespace {
@@ -70,6 +71,13 @@ TEST(Allocation, DoesNotHappenForCalibrations) {
   EXPECT_TRUE(all_good);
   EXPECT_EQ(calibrator.fits(), 10U);
   EXPECT_EQ(count, 0U);
+}
+
+TEST(Allocation, DoesNotHappenForBorders) {
+  const ViewingLens lens{{1500, 0, 959.5, 0, 1500, 539.5, 0, 0, 1}, {-0.1, 0.01, 1e-3, -1e-3, 0}, 1920, 1080};
+  bool good = false;
+  EXPECT_EQ(allocations_of([&] { good = image_border(lens).has_value(); }), 0U);
+  EXPECT_TRUE(good);
 }
 
 }  // namespace
