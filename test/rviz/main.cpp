@@ -1,0 +1,48 @@
+#include <memory>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <ros/ros.h>
+#include <QApplication>
+
+#include "window.h"
+
+namespace trk_bridge::test {
+namespace {
+
+RvizWindow* the_window = nullptr;
+
+/// Shows who was not there what a failed test saw.
+class PicturesOfFailures : public ::testing::EmptyTestEventListener {
+  void OnTestPartResult(const ::testing::TestPartResult& result) override {
+    if (!result.failed()) return;
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    if (test == nullptr) return;
+    std::string name = std::string(test->test_suite_name()) + "." + test->name();
+    for (char& c : name) c = c == '/' ? '_' : c;
+    const std::string path = results_directory() + "/failed_" + name + ".png";
+    if (RvizWindow::screen().save(QString::fromStdString(path))) std::printf("The screen then: %s\n", path.c_str());
+  }
+};
+
+}  // namespace
+
+RvizWindow& window() { return *the_window; }
+
+std::string results_directory() {
+  const std::string output = ::testing::GTEST_FLAG(output);
+  const auto begin = output.find(':'), end = output.find_last_of('/');
+  return begin == std::string::npos || end == std::string::npos ? "." : output.substr(begin + 1, end - begin - 1);
+}
+
+}  // namespace trk_bridge::test
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleMock(&argc, argv);
+  ::ros::init(argc, argv, "rviz_rostest");
+  QApplication application(argc, argv);
+  trk_bridge::test::RvizWindow window(application, TRK_BRIDGE_RVIZ_TEST_CONFIGURATION);
+  trk_bridge::test::the_window = &window;
+  ::testing::UnitTest::GetInstance()->listeners().Append(new trk_bridge::test::PicturesOfFailures);
+  return RUN_ALL_TESTS();
+}

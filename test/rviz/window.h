@@ -1,0 +1,95 @@
+// The program rviz in the test's own process: its window on the X screen, its displays as its user sees them.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <rviz/display.h>
+#include <rviz/properties/status_property.h>
+#include <rviz/visualization_frame.h>
+#include <rviz/visualization_manager.h>
+#include <rviz/visualizer_app.h>
+#include <QApplication>
+#include <QRect>
+#include <QVariant>
+
+#include "picture.h"
+#include "view.h"
+
+namespace trk_bridge::test {
+
+/// Below a property (a display, a view) by the names of the tree's entries. Throws std::out_of_range for one that is
+/// not there.
+rviz::Property& property(rviz::Property& root, const std::vector<std::string>& names);
+
+struct Status {
+  rviz::StatusProperty::Level level;
+  std::string text;
+};
+
+/// What the display's status list says under `name`; nothing when there is no such line.
+std::optional<Status> status(const rviz::Display& display, const std::string& name);
+
+/// All lines, for messages.
+std::string statuses(const rviz::Display& display);
+
+class RvizWindow {
+ public:
+  /// Starts rviz as its program does, with a configuration. `application` outlives it. Throws std::runtime_error.
+  RvizWindow(QApplication& application, const std::string& configuration);
+
+  /// Handles what the window and ROS have to do until `condition` is met or the deadline has passed; whether it was
+  /// met.
+  bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds within = std::chrono::seconds(20));
+
+  /// Handles what there is to do until rviz has drawn the scene anew, from its beginning, so many times.
+  ::testing::AssertionResult draws(int frames = 2);
+
+  void load(const std::string& path);
+  void save(const std::string& path);
+
+  /// As the dialogue does. Throws std::runtime_error when the class cannot be loaded.
+  rviz::Display& add(const std::string& class_id, const std::string& name);
+  void remove(rviz::Display& display);
+  void remove_all();
+  /// Throws std::out_of_range.
+  rviz::Display& display(const std::string& name);
+
+  rviz::VisualizationManager& manager() { return *frame_->getManager(); }
+
+  void look(const OrbitView::Place& place);
+  /// From the view's properties, not from the renderer.
+  OrbitView view();
+  /// Where Ogre's camera says the point is, in pixels of the 3D view.
+  Eigen::Vector2d rendered_at(const Eigen::Vector3d& point);
+
+  /// The 3D view as it is on the screen after the next frames.
+  Picture picture();
+  /// The whole screen as it is.
+  static QImage screen();
+
+  /// Waits until this line of the display's status has the level and contains `text`.
+  ::testing::AssertionResult tells(const rviz::Display& display, const std::string& name,
+                                   rviz::StatusProperty::Level level, const std::string& text = "");
+
+ private:
+  QWidget& panel();
+
+  QApplication* application_;
+  std::unique_ptr<rviz::VisualizerApp> program_;
+  rviz::VisualizationFrame* frame_ = nullptr;
+};
+
+/// The one of this process, made by main().
+RvizWindow& window();
+
+/// A directory for pictures: where the results of the tests are written.
+std::string results_directory();
+
+}  // namespace trk_bridge::test
