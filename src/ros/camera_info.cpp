@@ -1,5 +1,6 @@
 #include "trk_bridge/ros/camera_info.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
@@ -9,14 +10,23 @@ namespace {
 
 using camera::DistortionModel;
 
-std::optional<InfoReason> fault_of(const sensor_msgs::CameraInfo& info) noexcept {
+std::optional<InfoReason> fault_of_size(const sensor_msgs::CameraInfo& info) noexcept {
   constexpr std::uint32_t largest = std::numeric_limits<std::int32_t>::max();
   if (info.width == 0 || info.height == 0 || info.width > largest || info.height > largest) return InfoReason::no_size;
+  return std::nullopt;
+}
+
+/// Of messages that do not tell of the whole image.
+std::optional<InfoReason> fault_of_part(const sensor_msgs::CameraInfo& info) noexcept {
   if (info.binning_x > 1 || info.binning_y > 1) return InfoReason::binned;
   const auto& roi = info.roi;
   const bool no_region = roi.width == 0 && roi.height == 0;
   const bool whole = roi.width == info.width && roi.height == info.height;
   if (roi.x_offset != 0 || roi.y_offset != 0 || !(no_region || whole)) return InfoReason::region;
+  return std::nullopt;
+}
+
+std::optional<InfoReason> fault_of_model(const sensor_msgs::CameraInfo& info) noexcept {
   const std::size_t count = info.D.size();
   if (info.distortion_model.empty() && count == 0) return std::nullopt;
   if (info.distortion_model == camera::name(DistortionModel::plumb_bob)) {
@@ -28,6 +38,12 @@ std::optional<InfoReason> fault_of(const sensor_msgs::CameraInfo& info) noexcept
     return InfoReason::coefficients;
   }
   return InfoReason::unknown_model;
+}
+
+std::array<double, 9> matrix_of(const sensor_msgs::CameraInfo& info) noexcept {
+  std::array<double, 9> k{};
+  std::copy(info.K.begin(), info.K.end(), k.begin());
+  return k;
 }
 
 }  // namespace
@@ -52,15 +68,22 @@ std::string describe(const InfoFault& fault) {
 
 tl::expected<camera::FittedLens, InfoFault> lens_of(const sensor_msgs::CameraInfo& info,
                                                     const wire::CameraConstants& chip) noexcept {
-  if (const auto reason = fault_of(info)) return tl::unexpected(InfoFault{*reason, {}});
+  for (const auto fault_of : {fault_of_size, fault_of_part, fault_of_model}) {
+    if (const auto reason = fault_of(info)) return tl::unexpected(InfoFault{*reason, {}});
+  }
   auto constants = chip;
   constants.image_width = static_cast<std::int32_t>(info.width);
   constants.image_height = static_cast<std::int32_t>(info.height);
-  std::array<double, 9> k{};
-  for (std::size_t i = 0; i < k.size(); ++i) k[i] = info.K[i];
-  const auto lens = camera::lens_of(k, info.D, constants);
+  const auto lens = camera::lens_of(matrix_of(info), info.D, constants);
   if (!lens) return tl::unexpected(InfoFault{InfoReason::no_lens, lens.error()});
   return *lens;
+}
+
+tl::expected<camera::ViewingLens, InfoFault> viewing_lens(const sensor_msgs::CameraInfo& info) {
+  for (const auto fault_of : {fault_of_size, fault_of_model}) {
+    if (const auto reason = fault_of(info)) return tl::unexpected(InfoFault{*reason, {}});
+  }
+  return camera::ViewingLens{matrix_of(info), info.D, info.width, info.height};
 }
 
 bool same_calibration(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b) noexcept {

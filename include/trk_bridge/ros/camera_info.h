@@ -1,4 +1,4 @@
-// CameraInfo as the lens that trk can tell of it.
+// CameraInfo as a lens: the one that trk can tell of it, and the one to draw.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <tl/expected.hpp>
 
 #include "trk_bridge/camera/calibration.h"
+#include "trk_bridge/camera/figure.h"
 
 namespace trk_bridge::ros1 {
 
@@ -32,6 +33,10 @@ std::string describe(const InfoFault&);
 /// message's.
 [[nodiscard]] tl::expected<camera::FittedLens, InfoFault> lens_of(const sensor_msgs::CameraInfo&,
                                                                   const wire::CameraConstants& chip) noexcept;
+
+/// The lens of the whole, raw image, to be drawn, whatever part of it is sent and however it is binned: K and D belong
+/// to width and height. image_border() says whether it can be. Errors: no_size, unknown_model, coefficients.
+[[nodiscard]] tl::expected<camera::ViewingLens, InfoFault> viewing_lens(const sensor_msgs::CameraInfo&);
 
 /// Size and coefficients of a CameraInfo decide its lens: whether two agree in them.
 [[nodiscard]] bool same_calibration(const sensor_msgs::CameraInfo&, const sensor_msgs::CameraInfo&) noexcept;
