@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+"""Runs every command of README.md and of the pages in doc/, as pages.py says that they are marked.
+
+What follows a command on its page finds what that has left: files, and what runs in the background until its section
+ends. Each page has a folder of its own, which is its home, too; each section has the address of a ROS master of its own,
+where nobody listens yet. stand_ins.py has what is changed in the commands. Windows open on a display that nobody sees.
+"""
+
+import argparse
+import contextlib
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree
+
+import pages
+import session
+import stand_ins
+
+
+@contextlib.contextmanager
+def invisible_display():
+    """The name of an X display of its own."""
+    read, write = os.pipe()
+    try:
+        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"]
+        server = subprocess.Popen(command, pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    finally:
+        os.close(write)
+    try:
+        with open(read) as display:
+            number = display.readline().strip()
+        if not number:
+            raise RuntimeError("Xvfb does not start")
+        yield f":{number}"
+    finally:
+        server.terminate()
+        server.wait()
+
+
+def environment_of(build, devel, display):
+    """What a terminal has after `. build/devel/setup.bash`."""
+    basic = {name: value for name, value in os.environ.items() if name in ("LANG", "USER", "LOGNAME", "TERM", "TMPDIR")}
+    basic["PATH"] = "/usr/sbin:/usr/bin:/sbin:/bin"
+    noetic = pathlib.Path("/opt/ros/noetic/setup.bash")
+    setup = f'{f". {noetic} && " if noetic.exists() else ""}. "$0/setup.bash" && env -0'
+    entered = subprocess.run(["bash", "-c", setup, str(devel)], env=basic, check=True, stdout=subprocess.PIPE).stdout
+    found = dict(entry.split("=", 1) for entry in entered.decode().split("\0") if entry)
+    own = {
+        "TRK_BRIDGE_BUILD": str(build),
+        "DISPLAY": display,
+        "LIBGL_ALWAYS_SOFTWARE": "1",
+        "ROS_IP": "127.0.0.1",
+        "PYTHONUNBUFFERED": "1",  # into a file, as roslaunch speaks to a terminal
+    }
+    return {**found, **own}
+
+
+def is_scripts_build(root, build):
+    """Whether it is such a build as the project's scripts make, which they may then use."""
+    cache = build / "CMakeCache.txt"
+    lines = cache.read_text().splitlines() if cache.exists() else []
+    return {f"CMAKE_HOME_DIRECTORY:INTERNAL={root}", "CMAKE_GENERATOR:INTERNAL=Ninja"} <= set(lines)
+
+
+def script_text(path):
+    """A script's text, with that of the scripts beside it that it sources."""
+    text = path.read_text()
+    for name in re.findall(r'^\. "\$\(dirname "\$0"\)/([^"]+)"$', text, re.MULTILINE):
+        text += (path.parent / name).read_text()
+    return text
+
+
+class Skipped(Exception):
+    """Why a block could not be run here."""
+
+
+class PageRun:
+    """Runs the blocks of one page, one after another."""
+
+    def __init__(self, root, build, environment, folder, logs, table):
+        self._root = root
+        self._build = build
+        self._environment = environment
+        self._folder = folder
+        self._logs = logs
+        self._table = table
+        self._terminals = None
+        self._section = None
+
+    def _enter(self, block):
+        if block.section == self._section:
+            return
+        self.leave()
+        own = {
+            "HOME": str(self._folder),
+            "ROS_HOME": str(self._folder / ".ros"),
+            "ROS_MASTER_URI": f"http://127.0.0.1:{stand_ins.free_port()}",
+        }
+        self._terminals = session.Terminals({**self._environment, **own}, self._folder, self._logs)
+        self._section = block.section
+
+    def leave(self):
+        """Ends what runs in the background."""
+        terminals, self._terminals, self._section = self._terminals, None, None
+        if terminals:
+            terminals.close()
+
+    def run(self, block):
+        if block.mark is None:
+            return
+        text = stand_ins.replace_all(block.text, self._table)
+        if block.mark.kind == "file":
+            (self._folder / block.mark.text).write_text(text)
+            return
+        self._enter(block)
+        if re.search(r"\./scripts/|cmake .*build", block.text) and block.mark.kind in ("run", "background"):
+            if not is_scripts_build(self._root, self._build):
+                raise Skipped("it would build into a workspace's build folder")
+        if block.mark.kind == "run":
+            self._terminals.run(text, stand_ins.replace_all(block.mark.prints, self._table), block.mark.fails)
+        elif block.mark.kind == "background":
+            self._terminals.run_in_background(text, stand_ins.replace_all(block.mark.text, self._table))
+        elif block.mark.kind == "needs hardware":
+            self._terminals.check_syntax(block.text)
+        else:
+            lacking = pages.has_commands(script_text(self._root / block.mark.text), block.commands())
+            if lacking:
+                raise session.CommandError(f"{block.mark.text} does not run: {'; '.join(lacking)}")
+
+
+class Report:
+    """Tells how it goes, and writes JUnit's file."""
+
+    def __init__(self):
+        self.failed = self.skipped = 0
+        self._suite = xml.etree.ElementTree.Element("testsuite", name="doc_commands")
+
+    def add(self, page, block, seconds, error):
+        name = f"{page}:{block.line} {block.heading}" if block else str(page)
+        what = f"  [{block.mark.kind}] {block.commands()[0]}" if block and block.is_command() else ""
+        result = "ok" if not error else "skipped" if isinstance(error, Skipped) else "FAILED"
+        print(f"{result:7} {seconds:5.1f} s  {name}{what}", flush=True)
+        case = xml.etree.ElementTree.SubElement(self._suite, "testcase", classname="doc_commands", name=name,
+                                                time=f"{seconds:.3f}")
+        if result == "skipped":
+            self.skipped += 1
+            xml.etree.ElementTree.SubElement(case, "skipped", message=str(error))
+        elif error:
+            self.failed += 1
+            print(error, flush=True)
+            text = re.sub(r"[^\t\n\x20-\ud7ff]", "?", str(error))
+            xml.etree.ElementTree.SubElement(case, "failure", message=text.splitlines()[0]).text = text
+
+    def write(self, path):
+        self._suite.set("tests", str(len(self._suite)))
+        self._suite.set("failures", str(self.failed))
+        self._suite.set("skipped", str(self.skipped))
+        path.parent.mkdir(parents=True, exist_ok=True)
+        xml.etree.ElementTree.ElementTree(self._suite).write(path, encoding="utf-8", xml_declaration=True)
+
+
+def run_page(options, path, environment, report):
+    name = os.path.relpath(path, options.root)
+    begin = time.monotonic()
+    try:
+        blocks = pages.blocks_of(path.read_text())
+    except pages.PageError as error:
+        report.add(name, None, time.monotonic() - begin, f"{name}: {error}")
+        return
+    if options.section:
+        blocks = [block for block in blocks if options.section in block.heading]
+    with tempfile.TemporaryDirectory(prefix="trk_bridge_page.") as folder, stand_ins.FreeSlot() as slot:
+        home, logs = pathlib.Path(folder, "home"), pathlib.Path(folder, "logs")
+        home.mkdir()
+        logs.mkdir()
+        table = stand_ins.stand_ins(options.root, options.build, slot.number)
+        page = PageRun(options.root, options.build, environment, home, logs, table)
+        broken = None  # a section whose blocks have nothing to stand on
+        for block, following in zip(blocks, blocks[1:] + [None]):
+            begin, error = time.monotonic(), None
+            try:
+                if block.section == broken:
+                    raise session.CommandError("not run: one before it in its section has failed")
+                page.run(block)
+                if following is None or following.section != block.section:
+                    page.leave()
+            except Skipped as reason:
+                error = reason
+            except session.CommandError as failure:
+                error, broken = failure, block.section
+                with contextlib.suppress(session.CommandError):
+                    page.leave()
+            if block.is_command() or error:
+                report.add(name, block, time.monotonic() - begin, error)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
+    parser.add_argument("--root", type=pathlib.Path, required=True, help="the repository")
+    parser.add_argument("--build", type=pathlib.Path, required=True, help="its build")
+    parser.add_argument("--devel", type=pathlib.Path, required=True, help="that build's devel space")
+    parser.add_argument("--junit", type=pathlib.Path, help="where results are written to")
+    parser.add_argument("--section", help="only sections whose heading has this in it")
+    parser.add_argument("pages", nargs="*", type=pathlib.Path, help="default: README.md and doc/*.md")
+    options = parser.parse_args()
+    options.root, options.build = options.root.resolve(), options.build.resolve()
+    paths = [options.root / "README.md", *sorted(options.root.glob("doc/**/*.md"))]
+    if options.pages:
+        paths = [page.resolve() for page in options.pages]
+
+    report = Report()
+    with invisible_display() as display:
+        environment = environment_of(options.build, options.devel.resolve(), display)
+        for path in paths:
+            run_page(options, path, environment, report)
+    if options.junit:
+        report.write(options.junit)
+    return 1 if report.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,79 @@
+// The programs that the documentation shows, each in its own process, with the trk tool at the other end.
+#include <gmock/gmock.h>
+
+#include "free_slot.h"
+#include "program.h"
+#include "temporary_directory.h"
+#include "udp.h"
+
+namespace trk_bridge::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+TEST(Examples, read_udp_prints_what_trk_sends) {
+  const TemporaryDirectory directory;
+  const std::string take = directory / "take.trk";
+  Program maker({WRITE_FILE, take, "euler"});
+  EXPECT_EQ(maker.rest_of_err(), "");
+  ASSERT_EQ(maker.wait(), 0);
+
+  const std::string port = std::to_string(PlainSocket().port());
+  Program reader({READ_UDP, port, "3"});
+  Program sender({TRK_TOOL, "relay", "file:" + take + "?loop=1&time=now", "udp://127.0.0.1:" + port});
+  std::optional<std::string> line = reader.out_line();
+  ASSERT_TRUE(line);
+  // Constants come with the first parameters, or with those of a second later where the reader was late.
+  if (line->find("constants: ") != 0) {
+    EXPECT_THAT(*line, HasSubstr(" degrees [euler "));
+  } else {
+    EXPECT_EQ(*line, "constants: image 720 x 576 pixels, chip 6.4 x 4.8 mm");
+  }
+  EXPECT_THAT(reader.rest_of_out(),
+              HasSubstr(" degrees [euler studio_z_up image_distance consider_blank shift_on_chip]"));
+  EXPECT_EQ(reader.rest_of_err(), "");
+  EXPECT_EQ(reader.wait(), 0);
+}
+
+TEST(Examples, read_udp_says_that_a_port_is_taken) {
+  const PlainSocket taken("0.0.0.0");
+  Program reader({READ_UDP, std::to_string(taken.port()), "1"});
+  EXPECT_THAT(reader.rest_of_err(), StartsWith("port " + std::to_string(taken.port()) + ": "));
+  EXPECT_EQ(reader.wait(), 1);
+}
+
+TEST(Examples, trk_dump_reads_what_write_mem_writes) {
+  FreeSlot slot;
+  const std::string number = std::to_string(slot.number());
+  Program writer({WRITE_MEM, number, "100000"});
+  Program reader({TRK_TOOL, "dump", "shm:" + number, "--json", "--count", "3"});
+  EXPECT_THAT(reader.out_line().value_or(""), HasSubstr(R"("image_width":1920)"));
+  for (int i = 0; i < 2; ++i) {
+    const std::string params = reader.out_line().value_or("");
+    EXPECT_THAT(params, HasSubstr(R"("z":1.6)"));
+    EXPECT_THAT(params, HasSubstr(R"("fov":8.0)"));
+  }
+  reader.rest_of_err();
+  EXPECT_EQ(reader.wait(), 0);
+}
+
+TEST(Examples, write_mem_leaves_no_memory_behind) {
+  FreeSlot slot;
+  Program writer({WRITE_MEM, std::to_string(slot.number()), "2"});
+  EXPECT_EQ(writer.rest_of_err(), "");
+  EXPECT_EQ(writer.wait(), 0);
+  EXPECT_FALSE(slot.has_file());
+  EXPECT_EQ(slot.segment(), -1);
+}
+
+TEST(Examples, both_tell_their_usage) {
+  for (const char* program : {READ_UDP, WRITE_MEM}) {
+    Program without_arguments({program});
+    EXPECT_THAT(without_arguments.rest_of_err(), StartsWith("usage: "));
+    EXPECT_EQ(without_arguments.wait(), 2);
+  }
+}
+
+}  // namespace
+}  // namespace trk_bridge::test

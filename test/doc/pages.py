@@ -1,0 +1,178 @@
+"""Command blocks of a documentation page, and what a page says of how each is run.
+
+A page shows commands in fences that say `sh`, and marks each with a comment right before it, which no reader sees:
+
+    <!-- run -->                          all lines, as one shell runs them, end with exit code 0
+    <!-- run: prints TEXT -->             and print TEXT
+    <!-- run: fails, prints TEXT -->      end with another exit code, and print TEXT
+    <!-- run: background -->              one command that prints something and lives until its section ends; there
+                                          Ctrl-C ends it with exit code 0
+    <!-- run: background until TEXT -->   the same; what follows waits for TEXT
+    <!-- run by: FILE -->                 FILE, a script of the repository, has these commands
+    <!-- needs hardware: WHY -->          nobody runs it; its syntax is checked
+
+Any other fence says its language, too, and `<!-- file: NAME -->` before it makes it a file for the commands after it.
+"""
+
+import dataclasses
+import re
+
+COMMAND_LANGUAGES = ("sh", "bash", "shell", "console")
+
+_FENCE = re.compile(r"^(?P<indent> *)(?P<ticks>`{3,}|~{3,})[ \t]*(?P<language>[^\s`]*)[^`]*$")
+_MARK = re.compile(r"^\s*<!--\s*(?P<verb>run by|run|needs hardware|file)\b\s*(?::\s*(?P<text>.*?))?\s*-->\s*$")
+_RUN = re.compile(
+    r"^(?:(?P<background>background)(?: until (?P<until>.+))?|(?:(?P<fails>fails), )?prints (?P<prints>.+))$")
+_LIST_ITEM = re.compile(r"^ {0,3}(?:[-*+]|\d+[.)])\s")
+
+
+class PageError(Exception):
+    """What is wrong with a page, with its line."""
+
+    def __init__(self, line, why):
+        super().__init__(f"line {line}: {why}")
+
+
+@dataclasses.dataclass(frozen=True)
+class Mark:
+    """How the block after it is run: `kind` is run, background, run by, needs hardware or file."""
+
+    kind: str
+    text: str = ""  # until, FILE, WHY or NAME
+    prints: str = ""
+    fails: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Block:
+    line: int  # of its fence, from 1
+    section: int  # counts the page's headings
+    heading: str
+    language: str
+    text: str
+    mark: Mark = None
+
+    def is_command(self):
+        return self.language in COMMAND_LANGUAGES
+
+    def commands(self):
+        """Its lines as a shell reads them: without comments, continued ones in one."""
+        lines = re.sub(r"\\\n\s*", "", self.text).splitlines()
+        return [line.strip() for line in lines if line.strip() and not line.strip().startswith("#")]
+
+
+def parse_mark(line, number):
+    """The mark that a line is, or None. Raises PageError for one that says nothing of the above."""
+    match = _MARK.match(line)
+    if not match:
+        return None
+    verb, text = match["verb"], match["text"]
+    if verb != "run":
+        if not text:
+            raise PageError(number, f"'{verb}' does not say what")
+        return Mark(verb, text)
+    if text is None:
+        return Mark("run")
+    run = _RUN.match(text)
+    if not run:
+        raise PageError(number, f"'run: {text}' is none of the ways to run a block")
+    if run["background"]:
+        return Mark("background", run["until"] or "")
+    return Mark("run", prints=run["prints"], fails=bool(run["fails"]))
+
+
+def _check(block):
+    if not block.language:
+        raise PageError(block.line, "a fence without a language: text, if it is none")
+    if block.is_command():
+        if block.mark is None or block.mark.kind == "file":
+            raise PageError(block.line, f"nobody says how these commands are run: {block.commands()[:1]}")
+        if not block.commands():
+            raise PageError(block.line, "a command block without a command")
+        if block.mark.kind == "background" and len(block.commands()) != 1:
+            raise PageError(block.line, "one command at a time runs in the background")
+    elif block.mark is not None and block.mark.kind != "file":
+        raise PageError(block.line, f"a mark of commands before a fence of '{block.language}'")
+
+
+class _Reader:
+    """One pass over a page's lines."""
+
+    def __init__(self, lines):
+        self._lines = lines
+        self._at = 0
+        self._section, self._heading = 0, ""
+        self._mark = self._mark_line = None
+        self._in_list = False
+        self.blocks = []
+
+    def read(self):
+        while self._at < len(self._lines):
+            fence = _FENCE.match(self._lines[self._at])
+            if fence:
+                self._read_fence(fence)
+            else:
+                self._read_text(self._lines[self._at])
+                self._at += 1
+        self._end_mark()
+
+    def _end_mark(self):
+        if self._mark is not None:
+            raise PageError(self._mark_line, "a mark without a fence after it")
+
+    def _read_fence(self, fence):
+        begin = self._at
+        closing = re.compile(rf"^ *{re.escape(fence['ticks'][0])}{{{len(fence['ticks'])},}}\s*$")
+        content = []
+        while True:
+            self._at += 1
+            if self._at == len(self._lines):
+                raise PageError(begin + 1, "a fence that does not end")
+            if closing.match(self._lines[self._at]):
+                break
+            content.append(re.sub(rf"^ {{0,{len(fence['indent'])}}}", "", self._lines[self._at]))
+        self._at += 1
+        block = Block(begin + 1, self._section, self._heading, fence["language"], "\n".join(content) + "\n", self._mark)
+        self._mark = None
+        _check(block)
+        self.blocks.append(block)
+
+    def _read_text(self, line):
+        if not line.strip():
+            return
+        self._end_mark()
+        mark = parse_mark(line, self._at + 1)
+        if mark is not None:
+            self._mark, self._mark_line = mark, self._at + 1
+            return
+        if _LIST_ITEM.match(line):
+            self._in_list = True
+            return
+        indent = len(line.expandtabs(4)) - len(line.expandtabs(4).lstrip())
+        after_blank = self._at == 0 or not self._lines[self._at - 1].strip()
+        if indent >= (8 if self._in_list else 4) and after_blank:
+            raise PageError(self._at + 1, "an indented block: commands and text stand in fences that say what they are")
+        if indent == 0:
+            self._in_list = False
+        if line.startswith("#"):
+            self._section += 1
+            self._heading = line.lstrip("#").strip()
+
+
+def blocks_of(text):
+    """All fences of a page's text, in order. Raises PageError."""
+    reader = _Reader(text.splitlines())
+    reader.read()
+    return reader.blocks
+
+
+def has_commands(script, commands):
+    """Which of the commands a script lacks. `script` is its text with that of the files it sources."""
+    text = re.sub(r"\\\n\s*", " ", script).replace('"', "").replace("$(dirname $0)/..", ".")
+    text = text.replace("$root", ".").replace("$build", "build")
+    lines = [line.split() for line in text.splitlines() if not line.strip().startswith("#")]
+
+    def has(words):
+        return any(line[i:i + len(words)] == words for line in lines for i in range(len(line)))
+
+    return [command for command in commands if not has(command.split())]

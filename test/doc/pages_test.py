@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""What the command test takes for a command block, and what it refuses."""
+
+import unittest
+
+from pages import Mark, PageError, blocks_of, has_commands
+
+
+def page(*lines):
+    return "\n".join(lines) + "\n"
+
+
+class Marks(unittest.TestCase):
+    def mark_of(self, mark):
+        return blocks_of(page(mark, "```sh", "true", "```"))[0].mark
+
+    def test_all_ways_to_run(self):
+        self.assertEqual(self.mark_of("<!-- run -->"), Mark("run"))
+        self.assertEqual(self.mark_of("<!-- run: prints a, b -->"), Mark("run", prints="a, b"))
+        self.assertEqual(self.mark_of("<!-- run: fails, prints no: x -->"), Mark("run", prints="no: x", fails=True))
+        self.assertEqual(self.mark_of("<!-- run: background -->"), Mark("background"))
+        self.assertEqual(self.mark_of("<!-- run: background until 50 Hz -->"), Mark("background", "50 Hz"))
+        self.assertEqual(self.mark_of("<!-- run by: scripts/test -->"), Mark("run by", "scripts/test"))
+        self.assertEqual(self.mark_of("<!-- needs hardware: a tracker -->"), Mark("needs hardware", "a tracker"))
+
+    def test_blank_lines_may_stand_between(self):
+        self.assertEqual(blocks_of(page("<!-- run -->", "", "```sh", "true", "```"))[0].mark, Mark("run"))
+
+    def test_marks_that_say_nothing_are_refused(self):
+        for mark in ("<!-- run: -->", "<!-- run: later -->", "<!-- run: background then -->", "<!-- run by -->",
+                     "<!-- needs hardware: -->", "<!-- run: fails -->"):
+            with self.subTest(mark), self.assertRaisesRegex(PageError, "line 1: "):
+                self.mark_of(mark)
+
+    def test_a_mark_belongs_to_one_fence(self):
+        with self.assertRaisesRegex(PageError, "line 1: a mark without a fence"):
+            blocks_of(page("<!-- run -->", "Words.", "```sh", "true", "```"))
+        with self.assertRaisesRegex(PageError, "line 5: nobody says"):
+            blocks_of(page("<!-- run -->", "```sh", "true", "```", "```sh", "true", "```"))
+
+
+class Blocks(unittest.TestCase):
+    def test_commands_without_a_mark_are_refused(self):
+        for language in ("sh", "bash", "shell", "console"):
+            with self.subTest(language), self.assertRaisesRegex(PageError, "line 2: nobody says"):
+                blocks_of(page("Words.", f"```{language}", "true", "```"))
+
+    def test_fences_without_a_language_are_refused(self):
+        with self.assertRaisesRegex(PageError, "without a language"):
+            blocks_of(page("```", "true", "```"))
+
+    def test_indented_blocks_are_refused(self):
+        for text in (page("Words:", "", "    ls"), page("Words:", "", "\tls"), page("- item", "", "        ls")):
+            with self.subTest(text), self.assertRaisesRegex(PageError, "indented block"):
+                blocks_of(text)
+
+    def test_continued_text_is_no_block(self):
+        self.assertEqual(blocks_of(page("- item", "  goes on", "", "  second paragraph", "", "Words", "    go on")), [])
+
+    def test_fences_that_do_not_end_are_refused(self):
+        with self.assertRaisesRegex(PageError, "line 1: a fence that does not end"):
+            blocks_of(page("```text", "a"))
+
+    def test_marks_are_for_commands(self):
+        with self.assertRaisesRegex(PageError, "mark of commands"):
+            blocks_of(page("<!-- run -->", "```text", "a", "```"))
+
+    def test_lines_as_a_shell_reads_them(self):
+        text = page("# Title", "## Part", "<!-- run -->", "```sh", "a \\", "  b", "# word", "", "c  # d", "```")
+        block = blocks_of(text)[0]
+        self.assertEqual((block.line, block.section, block.heading), (4, 2, "Part"))
+        self.assertEqual(block.commands(), ["a b", "c  # d"])
+
+    def test_fences_in_lists(self):
+        block = blocks_of(page("1. item", "   <!-- run -->", "   ```sh", "   a", "     b", "   ```"))[0]
+        self.assertEqual(block.text, "a\n  b\n")
+
+    def test_files(self):
+        block = blocks_of(page("<!-- file: a.yaml -->", "```yaml", "x: 1", "```"))[0]
+        self.assertEqual((block.mark, block.text, block.is_command()), (Mark("file", "a.yaml"), "x: 1\n", False))
+        with self.assertRaisesRegex(PageError, "nobody says"):
+            blocks_of(page("<!-- file: a.sh -->", "```sh", "true", "```"))
+
+    def test_one_command_in_the_background(self):
+        with self.assertRaisesRegex(PageError, "one command at a time"):
+            blocks_of(page("<!-- run: background -->", "```sh", "a", "b", "```"))
+
+
+class Scripts(unittest.TestCase):
+    SCRIPT = page("# make a cake", 'cmake -S "$root" -B "$build" -G Ninja \\', '  -DX=1 "$@"',
+                  'exec "$(dirname "$0")/../scripts/test"')
+
+    def test_commands_that_a_script_has(self):
+        for command in ("cmake -S . -B build -G Ninja -DX=1", "./scripts/test"):
+            self.assertEqual(has_commands(self.SCRIPT, [command]), [])
+
+    def test_commands_that_it_lacks(self):
+        for command in ("cmake -S . -B build -DX=1", "./scripts/demo", "make a cake", "cmake -S . -B build -DX=2"):
+            self.assertEqual(has_commands(self.SCRIPT, [command]), [command])
+
+
+if __name__ == "__main__":
+    unittest.main()

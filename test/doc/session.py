@@ -1,0 +1,156 @@
+"""Runs commands as a person in a few terminals does."""
+
+import contextlib
+import os
+import pathlib
+import shlex
+import signal
+import subprocess
+import time
+import uuid
+
+LEFT_BY = "TRK_BRIDGE_PAGE_TEST"  # an environment variable that tells what a page's commands have started
+
+# What programs, and roslaunch about them, say when something went wrong that no exit code tells.
+_BAD_SIGNS = ("process has died", "has died!", "escalating to SIGTERM", "Traceback (most recent call last)")
+
+
+class CommandError(Exception):
+    """A command did not do what its page says, with what it printed."""
+
+
+def wait_for(condition, seconds):
+    """The first true value of `condition`, asked until then; its last value after `seconds`."""
+    deadline = time.monotonic() + seconds
+    while True:
+        value = condition()
+        if value or time.monotonic() > deadline:
+            return value
+        time.sleep(0.02)
+
+
+class Command:
+    """A shell with commands of one block, in a process group of its own, as in a terminal of its own."""
+
+    def __init__(self, text, environment, folder, log):
+        self.text = text
+        self._log = log
+        with open(log, "wb") as output:
+            self._process = subprocess.Popen(["bash", "-e", "-c", text], env=environment, cwd=folder,
+                                             stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                                             start_new_session=True)
+
+    def output(self):
+        return self._log.read_text(errors="replace")
+
+    def code(self):
+        """None while it lives."""
+        return self._process.poll()
+
+    def fail(self, why):
+        raise CommandError(f"{self.text.strip()}\n  {why}; it printed:\n{self.output()[-6000:]}")
+
+    def wait(self, seconds):
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._process.wait(seconds)
+        if self.code() is None:
+            self.kill()
+            self.fail(f"has not ended within {seconds} s")
+        return self.code()
+
+    def wait_for_output(self, text, seconds):
+        """Any output where `text` is empty."""
+
+        def arrived():
+            output = self.output()
+            return text in output if text else bool(output.strip())
+
+        wait_for(lambda: arrived() or self.code() is not None, seconds)
+        # What it printed right before its end counts.
+        if not arrived():
+            self.fail(f"has not printed '{text}' within {seconds} s" if self.code() is None else
+                      f"has ended with {self.code()} before it printed '{text}'")
+
+    def interrupt(self, seconds):
+        """Ctrl-C. It must have lived until here and end well."""
+        if self.code() is not None:
+            self.fail(f"has ended by itself with {self.code()}")
+        os.killpg(self._process.pid, signal.SIGINT)
+        if self.wait(seconds) != 0:
+            self.fail(f"ended with {self.code()} after Ctrl-C")
+        self.check_signs()
+
+    def check_signs(self):
+        output = self.output()
+        for sign in _BAD_SIGNS:
+            if sign in output:
+                self.fail(f"says '{sign}'")
+
+    def kill(self):
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.wait()
+
+
+class Terminals:
+    """The terminals of one section of a page: what runs in the background, and an environment for all of it."""
+
+    PATIENCE = 60  # s, for a command to end or to print what it is waited for
+
+    def __init__(self, environment, folder, logs):
+        self._mark = uuid.uuid4().hex
+        self._environment = {**environment, LEFT_BY: self._mark}
+        self._folder = folder
+        self._logs = pathlib.Path(logs)
+        self._background = []
+        self._started = 0
+
+    def _start(self, text):
+        self._started += 1
+        return Command(text, self._environment, self._folder, self._logs / f"{self._mark}.{self._started}")
+
+    def run(self, text, prints="", fails=False):
+        command = self._start(text)
+        code = command.wait(self.PATIENCE)
+        if (code != 0) != fails:
+            command.fail(f"ended with {code}")
+        if prints and prints not in command.output():
+            command.fail(f"has not printed '{prints}'")
+        if not fails:
+            command.check_signs()
+
+    def run_in_background(self, text, until):
+        command = self._start(text)
+        self._background.append(command)
+        command.wait_for_output(until, self.PATIENCE)
+
+    def check_syntax(self, text):
+        self.run("bash -n -c " + shlex.quote(text))
+
+    def close(self):
+        """Ctrl-C in each, the last first. Nothing may be left of what was started."""
+        try:
+            while self._background:
+                self._background.pop().interrupt(30)
+            if wait_for(lambda: not self._left(), 10):
+                return
+            raise CommandError("left behind: " + ", ".join(self._left().values()))
+        finally:
+            for command in self._background:
+                command.kill()
+            for pid in self._left():
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(pid, signal.SIGKILL)
+
+    def _left(self):
+        """Command lines of the processes that the section has started and that live, by pid."""
+        wanted = f"{LEFT_BY}={self._mark}".encode()
+        found = {}
+        for process in pathlib.Path("/proc").glob("[0-9]*"):
+            # Others end, or are not ours to read.
+            with contextlib.suppress(OSError):
+                if wanted in (process / "environ").read_bytes().split(b"\0"):
+                    line = (process / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+                    if line:
+                        found[int(process.name)] = line
+        return found

@@ -1,0 +1,94 @@
+"""What stands in for the things of a page that a test machine cannot share: all that is changed in its commands."""
+
+import contextlib
+import ctypes
+import dataclasses
+import fcntl
+import os
+import pathlib
+import random
+import re
+import shlex
+import socket
+
+_SLOT_NAMES = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+
+
+@dataclasses.dataclass(frozen=True)
+class StandIn:
+    pattern: str
+    replacement: str
+    why: str
+
+
+def free_port():
+    """A port below those that the kernel gives away by itself, free for UDP and TCP."""
+    while True:
+        port = random.randrange(20000, 30000)
+        with contextlib.suppress(OSError), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp, \
+                socket.socket() as tcp:
+            udp.bind(("", port))
+            tcp.bind(("127.0.0.1", port))
+            return port
+
+
+class FreeSlot:
+    """A shared memory slot that nobody uses; neither its file nor its segment is left behind."""
+
+    def __init__(self):
+        # From the end: the field takes low slots. The locks are those of the unit tests.
+        for number in range(61, -1, -1):
+            lock = os.open(f"/tmp/trk_bridge_test_slot.{number}", os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o666)
+            with contextlib.suppress(BlockingIOError):
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                if not self._path_of(number).exists():
+                    self.number, self._lock = number, lock
+                    return
+            os.close(lock)
+        raise RuntimeError("no shared memory slot is free")
+
+    @staticmethod
+    def _path_of(number):
+        return pathlib.Path(f"/tmp/dmc_tracking_buffer.{_SLOT_NAMES[number]}")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        path = self._path_of(self.number)
+        if path.exists():
+            libc = ctypes.CDLL(None, use_errno=True)
+            segment = libc.shmget(libc.ftok(os.fsencode(path), 0), 0, 0)
+            if segment >= 0:
+                libc.shmctl(segment, 0, None)  # IPC_RMID
+            path.unlink()
+        os.close(self._lock)
+
+
+def stand_ins(root, build, slot):
+    """The table for one page. Every fixed port has the same stand-in all over the page."""
+    take = root / "test/data/field/takes/euler.trk"
+    build = shlex.quote(str(build))
+    ports = [StandIn(rf"\b{port}\b", str(free_port()), "ports that others may use here") for port in range(7000, 7004)]
+    return ports + [
+        StandIn(r"udp://:", "udp://127.0.0.1:", "tests are not reached from outside"),
+        StandIn(r"\b(?:192\.0\.2|198\.51\.100|203\.0\.113)\.\d+\b", "127.0.0.1", "stand for the reader's own"),
+        StandIn(r"\b239(?:\.\d+){3}\b", "127.0.0.1", "multicast would leave the machine"),
+        StandIn(r"\bshm:7\b", f"shm:{slot}", "a slot that others may use on this machine"),
+        StandIn(r"\b(read_mem|write_mem) 7\b", rf"\1 {slot}", "the same"),
+        StandIn(r"/takes/take1\.trk\b", str(take), "a take of the reader's"),
+        StandIn(r"/path/to/trk_bridge\b", shlex.quote(str(root)), "where the reader has the repository"),
+        StandIn(r"(?<![\w/.])\./scripts/", shlex.quote(str(root)) + "/scripts/", "commands run in an empty folder"),
+        StandIn(r"(?<![\w/.])test/data/", shlex.quote(str(root)) + "/test/data/", "the same"),
+        StandIn(r"(?<![\w/.])build/devel/", f"{build}/devel/", "the build that the tests are of"),
+        StandIn(r"(?<=--install )build\b", build, "the same"),
+        StandIn(r"(?<=--build )build\b", build, "the same"),
+        # That catkin finds, configures and builds the package in a workspace is what differs from other builds.
+        StandIn(r"(?m)^catkin_make$", "catkin_make trk_bridge_wire", "the whole build takes minutes"),
+    ]
+
+
+def replace_all(text, table):
+    for stand_in in table:
+        text = re.sub(stand_in.pattern, stand_in.replacement, text)
+    return text
