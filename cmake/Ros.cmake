@@ -10,6 +10,7 @@ find_package(catkin REQUIRED COMPONENTS
   sensor_msgs
   std_msgs
   tf2_ros
+  visualization_msgs
   xmlrpcpp
 )
 # For trk bag alone; nodes do without.
@@ -36,6 +37,7 @@ catkin_package(
     sensor_msgs
     std_msgs
     tf2_ros
+    visualization_msgs
     xmlrpcpp
   DEPENDS EIGEN3
 )
