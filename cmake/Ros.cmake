@@ -19,6 +19,10 @@ find_package(roslz4 REQUIRED)
 find_package(tf2 REQUIRED)
 find_package(tf2_msgs REQUIRED)
 find_package(BZip2 REQUIRED)
+# For test_card alone.
+find_package(image_geometry REQUIRED)
+find_package(image_transport REQUIRED)
+find_package(OpenCV REQUIRED COMPONENTS core imgproc)
 
 add_message_files(DIRECTORY msg FILES CameraConstants.msg CameraParams.msg)
 generate_messages(DEPENDENCIES std_msgs)
