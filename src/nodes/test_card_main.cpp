@@ -1,0 +1,6 @@
+#include "node_main.h"
+#include "test_card.h"
+
+int main(int argc, char** argv) {
+  return trk_bridge::nodes::node_main<trk_bridge::nodes::TestCard>(argc, argv, "test_card");
+}
