@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "finding_log.h"
+#include "trk_bridge/ros/camera_markers.h"
 #include "trk_bridge/ros/camera_pipeline.h"
 #include "trk_bridge/ros/diagnostics.h"
 #include "trk_bridge/ros/trk_to_ros_parameters.h"
@@ -19,8 +21,9 @@ namespace trk_bridge::nodes {
 class CameraOutput {
  public:
   /// Advertises `params`, `constants` and `camera_info` in the namespace of `node`, and publishes the parameter's
-  /// constants where there are any.
-  CameraOutput(::ros::NodeHandle node, const trk_bridge::ros1::CameraParameters&, double field_rate, int queue_size);
+  /// constants where there are any. `markers` is a topic that cameras share; it counts where publish_markers is set.
+  CameraOutput(::ros::NodeHandle node, const trk_bridge::ros1::CameraParameters&, double field_rate, int queue_size,
+               ::ros::Publisher markers);
 
   bool wants(const wire::Record& record) const noexcept { return pipeline_.wants(record); }
   /// Publishes what comes of a sample before it returns. `now` is the steady clock's time of receipt, ns.
@@ -33,11 +36,15 @@ class CameraOutput {
   const trk_bridge::ros1::CameraParameters& parameters() const noexcept { return pipeline_.parameters(); }
 
  private:
+  void publish_markers(const trk_bridge::ros1::PipelineOutput&);
+
   trk_bridge::ros1::CameraPipeline pipeline_;
+  std::optional<trk_bridge::ros1::CameraMarkers> markers_;
   double field_rate_;
-  ::ros::Publisher params_, constants_, camera_info_;
+  ::ros::Publisher params_, constants_, camera_info_, marker_topic_;
   tf2_ros::TransformBroadcaster transforms_;
   transport::Snapshot<trk_bridge::ros1::CameraStatistics> statistics_;
+  transport::Snapshot<trk_bridge::ros1::MarkerStatistics> marker_statistics_;
   trk_bridge::ros1::CameraReport last_report_;
   FindingLog log_;
 };

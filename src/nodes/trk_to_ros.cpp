@@ -1,27 +1,45 @@
 #include "trk_to_ros.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 
 #include "node_parameters.h"
+#include "trk_bridge/ros/camera_markers.h"
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/ros/trk_to_ros_parameters.h"
 
 namespace trk_bridge::nodes {
+namespace {
+
+/// One topic for all cameras that have markers, with a queue for the bursts of each.
+::ros::Publisher advertise_markers(::ros::NodeHandle& private_node,
+                                   const trk_bridge::ros1::TrkToRosParameters& parameters) {
+  const auto count = std::count_if(parameters.cameras.begin(), parameters.cameras.end(),
+                                   [](const auto& camera) { return camera.publish_markers; });
+  if (count == 0) return {};
+  const auto queue = static_cast<std::uint32_t>(parameters.queue_size) * static_cast<std::uint32_t>(count);
+  return private_node.advertise<visualization_msgs::MarkerArray>("markers", queue);
+}
+
+}  // namespace
+
 TrkToRos::TrkToRos(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name)
     : node_(std::move(node)), diagnostics_(node_, private_node, name) {
   const auto parameters = trk_bridge::ros1::read_trk_to_ros_parameters(private_parameters(private_node),
                                                                        camera_name_of(node_.getNamespace()));
-  open(parameters);
+  open(parameters, advertise_markers(private_node, parameters));
   send_static_transforms();
   diagnostics_.start();
   for (auto& reader : readers_) reader->start();
 }
 
-void TrkToRos::open(const trk_bridge::ros1::TrkToRosParameters& parameters) {
+void TrkToRos::open(const trk_bridge::ros1::TrkToRosParameters& parameters, const ::ros::Publisher& markers) {
   std::map<std::string, std::vector<CameraOutput*>> by_source;
   for (const auto& camera : parameters.cameras) {
     const auto topics = parameters.several ? ::ros::NodeHandle(node_, camera.name) : node_;
-    cameras_.push_back(std::make_unique<CameraOutput>(topics, camera, parameters.field_rate, parameters.queue_size));
+    cameras_.push_back(
+        std::make_unique<CameraOutput>(topics, camera, parameters.field_rate, parameters.queue_size, markers));
     by_source[camera.source].push_back(cameras_.back().get());
   }
   for (const auto& [url, cameras] : by_source) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <ros/node_handle.h>
+#include <ros/publisher.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include "camera_output.h"
@@ -23,7 +24,7 @@ class TrkToRos {
   TrkToRos(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name);
 
  private:
-  void open(const trk_bridge::ros1::TrkToRosParameters&);
+  void open(const trk_bridge::ros1::TrkToRosParameters&, const ::ros::Publisher& markers);
   void send_static_transforms();
 
   ::ros::NodeHandle node_;

@@ -1,7 +1,5 @@
 #include "trk_bridge/ros/diagnostics.h"
 
-#include <algorithm>
-
 #include "diagnostic_text.h"
 #include "trk_bridge/wire/format.h"
 
@@ -71,7 +69,7 @@ Finding state(const CameraReport& now, const CameraReport& before, const CameraP
   if (now.source.state == SourceState::ended) return {Condition::ended, DiagnosticStatus::OK, "ended"};
   if (now.camera.sequence.accepted == 0) return silence(now, parameters);
   const double age = seconds_between(now.camera.last_news, now.time);
-  if (age > std::max(1.0, 5.0 / field_rate)) {
+  if (age > silence_after(field_rate)) {
     if (now.camera.sequence.duplicates > before.camera.sequence.duplicates) {
       return {Condition::counter_stands, DiagnosticStatus::WARN,
               "nothing new for " + seconds_text(age) + ": records come, but their counter stands still"};
@@ -137,6 +135,9 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
   }
   if (!no_constants && camera.without_camera_info > old.without_camera_info) {
     warn(Condition::no_camera_info, "no camera_info: " + camera::describe(camera.info_reason));
+  }
+  if (now.markers.not_drawn > before.markers.not_drawn) {
+    warn(Condition::no_markers, "no markers: " + describe(now.markers.reason));
   }
   if (camera.held_stamps > old.held_stamps) {
     warn(Condition::stamps_held, "the clock stands or stepped back: stamps are " +

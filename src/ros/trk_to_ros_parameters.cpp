@@ -18,6 +18,8 @@ void read_shared(ParameterReader& reader, CameraParameters& camera, std::vector<
   take(reader.number("delay"), camera.delay);
   take(reader.flag("publish_tf"), camera.publish_tf);
   take(reader.flag("publish_camera_info"), camera.publish_camera_info);
+  take(reader.flag("publish_markers"), camera.publish_markers);
+  take(reader.number("marker_far"), camera.marker_far);
   if (auto constants = read_constants(reader, faults)) camera.constants = constants;
 }
 

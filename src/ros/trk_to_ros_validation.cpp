@@ -2,6 +2,7 @@
 #include <set>
 
 #include "faults.h"
+#include "trk_bridge/ros/camera_markers.h"
 #include "trk_bridge/ros/trk_to_ros_parameters.h"
 #include "trk_bridge/transport/endpoint.h"
 #include "trk_bridge/wire/format.h"
@@ -28,6 +29,17 @@ void check_format(const CameraParameters& camera, Faults& faults) {
   }
 }
 
+void check_markers(const CameraParameters& camera, Faults& faults) {
+  constexpr double farthest = 1000;
+  if (camera.publish_markers && !camera.publish_camera_info) {
+    faults.add("publish_markers", "true", "needs publish_camera_info, whose lens is drawn");
+  }
+  if (!(camera.marker_far > marker_near && camera.marker_far <= farthest)) {
+    faults.add("marker_far", std::to_string(camera.marker_far),
+               "must be more than 0.2 (where the frustum begins) and at most 1000 metres");
+  }
+}
+
 void check_camera(const CameraParameters& camera, Faults& faults) {
   check_name(camera.name, faults);
   if (camera.source.empty()) {
@@ -41,6 +53,7 @@ void check_camera(const CameraParameters& camera, Faults& faults) {
     faults.add("delay", std::to_string(camera.delay), "must be 0 to 60 seconds");
   }
   if (camera.constants) check_constants(*camera.constants, faults);
+  check_markers(camera, faults);
 }
 
 /// Whether both name one UDP port that only one of them could bind.

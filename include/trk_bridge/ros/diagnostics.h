@@ -8,6 +8,7 @@
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
+#include "trk_bridge/ros/camera_markers.h"
 #include "trk_bridge/ros/camera_pipeline.h"
 #include "trk_bridge/ros/finding.h"
 #include "trk_bridge/transport/source.h"
@@ -30,11 +31,12 @@ struct CameraReport {
   transport::SourceStatistics source;
   ReaderStatistics reader;
   CameraStatistics camera;
+  MarkerStatistics markers;
   std::int64_t time = 0;  ///< steady clock, ns
 };
 
 /// What `now` tells, the state first and then what has gone wrong since `before` (the look before it; of counters, only
-/// their growth is a finding). Nothing new for a second, or five fields where these are longer, is a finding.
+/// their growth is a finding). Nothing new for silence_after() is a finding.
 std::vector<Finding> findings(const CameraReport& now, const CameraReport& before, const CameraParameters& parameters,
                               double field_rate);
 

@@ -34,6 +34,7 @@ enum class Condition : std::uint8_t {
   bad_constants,
   withheld,
   no_camera_info,
+  no_markers,
   stamps_held,
   // of ros_to_trk, which shares some of those above
   sending,

@@ -1,6 +1,7 @@
 // What trk_to_ros is told at its start.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,6 +29,8 @@ struct CameraParameters {
   std::optional<wire::CameraConstants> constants;  ///< until the sender's own ones come
   bool publish_tf = true;
   bool publish_camera_info = true;
+  bool publish_markers = false;  ///< needs publish_camera_info
+  double marker_far = 3;         ///< m, where the markers' frustum and axis end, more than marker_near
 };
 
 /// The word that leaves records in the sender's format.
@@ -42,6 +45,9 @@ struct TrkToRosParameters {
   std::string stamp = "arrival";
   int queue_size = 100;  ///< messages, 1..100000
 };
+
+/// Seconds after which a camera that sends nothing new is silent: one, or five fields where these are longer.
+inline double silence_after(double field_rate) { return std::max(1.0, 5.0 / field_rate); }
 
 /// Every fault, a line each: the parameter, its value and what is allowed. Empty when all is well. Knows no ROS.
 std::vector<std::string> validate(const TrkToRosParameters&);

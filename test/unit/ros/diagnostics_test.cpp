@@ -159,5 +159,13 @@ TEST_F(Diagnostics, NoCameraInfoSaysWhy) {
   expect(DiagnosticStatus::WARN, "no camera_info: " + camera::describe(camera::CameraReason::not_monotonic));
 }
 
+TEST_F(Diagnostics, NoMarkersSaysWhy) {
+  now.markers.not_drawn = before.markers.not_drawn = 5;
+  expect(DiagnosticStatus::OK, "receiving");
+  now.markers.not_drawn = 6;
+  now.markers.reason = {InfoReason::no_lens, camera::CameraReason::too_wide};
+  expect(DiagnosticStatus::WARN, "no markers: " + camera::describe(camera::CameraReason::too_wide));
+}
+
 }  // namespace
 }  // namespace trk_bridge::ros1

@@ -94,6 +94,18 @@ const Wrong wrong_ones[] = {
     {"Format", [](TrkToRosParameters& p) { p.cameras[0].format = "eulr"; }, "~format = 'eulr'", "as_received"},
     {"Constants", [](TrkToRosParameters& p) { p.cameras[0].constants = wire::CameraConstants{}; }, "~constants",
      "image"},
+    {"MarkersOfNoLens",
+     [](TrkToRosParameters& p) {
+       p.cameras[0].publish_markers = true;
+       p.cameras[0].publish_camera_info = false;
+     },
+     "~publish_markers = true", "needs publish_camera_info"},
+    {"MarkerFarIsNear", [](TrkToRosParameters& p) { p.cameras[0].marker_far = 0.2; }, "~marker_far = 0.2",
+     "more than 0.2 (where the frustum begins) and at most 1000 metres"},
+    {"MarkerFarTooFar", [](TrkToRosParameters& p) { p.cameras[0].marker_far = 1001; }, "~marker_far = 1001",
+     "at most 1000 metres"},
+    {"MarkerFarNan", [](TrkToRosParameters& p) { p.cameras[0].marker_far = std::nan(""); }, "~marker_far = nan",
+     "at most 1000 metres"},
     {"NoCameras", [](TrkToRosParameters& p) { p.cameras.clear(); }, "~cameras = {}", "at least one"},
 };
 INSTANTIATE_TEST_SUITE_P(One, ValidateWrong, ::testing::ValuesIn(wrong_ones),
@@ -144,6 +156,8 @@ TEST(Read, DefaultsNameTheCameraAndItsFrames) {
   EXPECT_EQ(c.format, "euler");
   EXPECT_FALSE(c.id);
   EXPECT_TRUE(c.publish_tf && c.publish_camera_info);
+  EXPECT_FALSE(c.publish_markers);
+  EXPECT_EQ(c.marker_far, 3);
 }
 
 TEST(Read, CamerasInheritFromTheNodeAndMayDiffer) {
@@ -167,6 +181,19 @@ TEST(Read, CamerasInheritFromTheNodeAndMayDiffer) {
   EXPECT_EQ(p.cameras[2].camera_frame, "jib");
   EXPECT_EQ(p.cameras[2].optical_frame, "top_optical");
   EXPECT_EQ(p.cameras[2].studio_frame, "stage");
+}
+
+TEST(Read, MarkersOfAllCamerasButOne) {
+  auto tree = tree_with_source();
+  tree["publish_markers"] = true;
+  tree["marker_far"] = 10;
+  tree["cameras"]["left"]["id"] = 1;
+  tree["cameras"]["right"]["id"] = 2;
+  tree["cameras"]["right"]["publish_markers"] = false;
+  const auto p = read_trk_to_ros_parameters(tree, "ignored");
+  EXPECT_TRUE(p.cameras[0].publish_markers);
+  EXPECT_EQ(p.cameras[0].marker_far, 10);
+  EXPECT_FALSE(p.cameras[1].publish_markers);
 }
 
 TEST(Read, ConstantsByName) {
