@@ -1,0 +1,82 @@
+// The display "Camera" of rviz.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <rviz/display.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <trk_bridge/CameraParams.h>
+#include <Eigen/Geometry>
+
+#include "camera_status.h"
+#include "display_properties.h"
+#include "feed.h"
+#include "lens_view.h"
+#include "trail.h"
+#include "trk_bridge/camera/camera.h"
+
+namespace trk_bridge::rviz_display {
+
+class CameraFigure;
+class FixedFrame;
+
+/// Draws a tracked camera: its lens from CameraInfo, its pose from tf at the CameraInfo's own stamp, and what only
+/// CameraParams know. Messages are received in rviz's other thread and looked at once a rendered frame.
+class CameraDisplay : public rviz::Display {
+  Q_OBJECT
+ public:
+  CameraDisplay();
+  ~CameraDisplay() override;
+
+  /// Once a rendered frame.
+  void update(float wall_dt, float ros_dt) override;
+  /// Time went back, or the user wants to begin anew.
+  void reset() override;
+  /// Of either type; the other topic is taken from the same namespace where it is advertised there.
+  void setTopic(const QString& topic, const QString& datatype) override;
+
+ protected:
+  void onInitialize() override;
+  void onEnable() override;
+  void onDisable() override;
+
+ private Q_SLOTS:
+  void subscribeInfo();
+  void subscribeParams();
+  void updateStyle();
+
+ private:
+  /// What one rendered frame shows.
+  struct Sample {
+    boost::shared_ptr<const sensor_msgs::CameraInfo> info;
+    boost::shared_ptr<const trk_bridge::CameraParams> params;  ///< null where there are none
+    Eigen::Isometry3d fixed_T_optical = Eigen::Isometry3d::Identity();
+    std::optional<camera::PanTiltRoll> told;  ///< by `params`
+    std::string pose_fault;                   ///< why they tell none
+  };
+
+  void forget();
+  std::optional<Sample> choose(const FixedFrame& fixed, const ros::Time& now);
+  void draw(const Sample& sample, const FixedFrame& fixed);
+  void follow(const Sample& sample, const FixedFrame& fixed);
+  std::string values_text(const Sample& sample) const;
+  void tell_topics(const ros::Time& now, const std::string& pose_fault);
+  void tell_drawn(const Sample& sample);
+
+  DisplayProperties properties_;
+  FigureStyle style_;
+  CameraStatus status_;
+  Feed<sensor_msgs::CameraInfo> info_;
+  Feed<trk_bridge::CameraParams> params_;
+
+  LensView lens_;
+  double focus_distance_ = 0;  // m, as drawn
+  bool shape_changed_ = true;
+  Trail trail_;
+  std::string trail_fixed_frame_;  // that its points are in
+  std::unique_ptr<CameraFigure> figure_;
+};
+
+}  // namespace trk_bridge::rviz_display

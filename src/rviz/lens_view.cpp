@@ -1,0 +1,45 @@
+#include "lens_view.h"
+
+#include <sstream>
+
+#include "trk_bridge/ros/camera_info.h"
+
+namespace trk_bridge::rviz_display {
+namespace {
+
+std::string numbers(const camera::ViewingLens& lens) {
+  std::ostringstream text;
+  text << "fx " << lens.k[0] << ", fy " << lens.k[4] << ", image " << lens.width << " x " << lens.height;
+  return text.str();
+}
+
+}  // namespace
+
+bool LensView::look_through(const sensor_msgs::CameraInfo& info) {
+  auto lens = ros1::viewing_lens(info);
+  if (!lens) {
+    std::string fault = ros1::describe(lens.error());
+    if (!lens_ && fault == fault_) return false;
+    forget();
+    fault_ = std::move(fault);
+    return true;
+  }
+  if (lens_ && *lens_ == *lens) return false;
+  forget();
+  lens_ = std::move(*lens);
+  if (const auto border = camera::image_border(*lens_)) {
+    border_ = *border;
+  } else {
+    fault_ = camera::describe(border.error()) + " (" + numbers(*lens_) + ")";
+  }
+  return true;
+}
+
+std::string LensView::text() const { return border_ ? numbers(*lens_) : std::string(); }
+
+std::optional<double> LensView::focal_length() const {
+  if (!border_) return std::nullopt;
+  return lens_->k[0];
+}
+
+}  // namespace trk_bridge::rviz_display

@@ -1,0 +1,102 @@
+// The messages of one topic that may still be wanted, in the order of their stamps.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <ros/time.h>
+#include <boost/shared_ptr.hpp>
+
+namespace trk_bridge::rviz_display {
+
+/// Stamps are compared as integers: ros::Duration overflows, and throws, between stamps that are far apart.
+inline std::int64_t nanoseconds(const ros::Time& time) {
+  return static_cast<std::int64_t>(time.sec) * 1'000'000'000 + static_cast<std::int64_t>(time.nsec);
+}
+
+/// Seconds from `from` to `to`, whatever they are.
+inline double seconds_between(const ros::Time& from, const ros::Time& to) {
+  return static_cast<double>(nanoseconds(to) - nanoseconds(from)) * 1e-9;
+}
+
+/// What add() made of a message.
+enum class Added {
+  in_time,    ///< newest, or late within the window
+  restarted,  ///< its stamp is older than the window: time went back, and everything before it is forgotten
+};
+
+/// Keeps half a second of them, at least two (a slow camera's last one is drawn until tf knows the next), at most
+/// `most`. A zero stamp means "now": such a message is alone. Not synchronised.
+template <typename Message>
+class Samples {
+ public:
+  using Ptr = boost::shared_ptr<const Message>;
+  static constexpr std::int64_t window = 500'000'000;  ///< ns
+  static constexpr std::size_t most = 128;
+
+  Added add(Ptr message) {
+    const std::int64_t stamp = stamp_of(message);
+    if (!samples_.empty()) {
+      const std::int64_t newest = stamp_of(samples_.back());
+      const bool restarted = stamp != 0 && newest != 0 && stamp < newest - window;
+      if (restarted || stamp == 0 || newest == 0) {
+        samples_.assign(1, std::move(message));
+        return restarted ? Added::restarted : Added::in_time;
+      }
+    }
+    const auto place = std::lower_bound(samples_.begin(), samples_.end(), stamp,
+                                        [](const Ptr& sample, std::int64_t time) { return stamp_of(sample) < time; });
+    if (place != samples_.end() && stamp_of(*place) == stamp) {
+      *place = std::move(message);
+    } else {
+      samples_.insert(place, std::move(message));
+    }
+    forget_old();
+    return Added::in_time;
+  }
+
+  /// The newest that `usable(message)` is true of; null where there is none.
+  template <typename Usable>
+  Ptr newest(Usable usable) const {
+    const auto found =
+        std::find_if(samples_.rbegin(), samples_.rend(), [&](const Ptr& sample) { return usable(*sample); });
+    return found == samples_.rend() ? nullptr : *found;
+  }
+
+  /// The newest; null where there is none.
+  Ptr newest() const { return samples_.empty() ? nullptr : samples_.back(); }
+
+  /// The one of that very stamp, else the newest before it, else the first after it; null where there is none. A zero
+  /// stamp means the newest.
+  Ptr belonging_to(const ros::Time& time) const {
+    if (samples_.empty()) return nullptr;
+    if (time.isZero()) return samples_.back();
+    const auto after =
+        std::upper_bound(samples_.begin(), samples_.end(), nanoseconds(time),
+                         [](std::int64_t wanted, const Ptr& sample) { return wanted < stamp_of(sample); });
+    return after == samples_.begin() ? *after : *(after - 1);
+  }
+
+  void clear() { samples_.clear(); }
+  bool empty() const { return samples_.empty(); }
+  std::size_t size() const { return samples_.size(); }
+
+ private:
+  static std::int64_t stamp_of(const Ptr& message) { return nanoseconds(message->header.stamp); }
+
+  void forget_old() {
+    const std::int64_t oldest_wanted = stamp_of(samples_.back()) - window;
+    auto first = samples_.begin();
+    while (samples_.end() - first > 2 &&
+           (stamp_of(*first) < oldest_wanted || samples_.end() - first > static_cast<std::ptrdiff_t>(most))) {
+      ++first;
+    }
+    samples_.erase(samples_.begin(), first);
+  }
+
+  std::vector<Ptr> samples_;  // oldest first, stamps differ
+};
+
+}  // namespace trk_bridge::rviz_display
