@@ -20,18 +20,12 @@ TEST(Examples, read_udp_prints_what_trk_sends) {
   ASSERT_EQ(maker.wait(), 0);
 
   const std::string port = std::to_string(PlainSocket().port());
-  Program reader({READ_UDP, port, "3"});
+  // Constants come again within a second of 50 sets, should the first ones have come too early.
+  Program reader({READ_UDP, port, "60"});
   Program sender({TRK_TOOL, "relay", "file:" + take + "?loop=1&time=now", "udp://127.0.0.1:" + port});
-  std::optional<std::string> line = reader.out_line();
-  ASSERT_TRUE(line);
-  // Constants come with the first parameters, or with those of a second later where the reader was late.
-  if (line->find("constants: ") != 0) {
-    EXPECT_THAT(*line, HasSubstr(" degrees [euler "));
-  } else {
-    EXPECT_EQ(*line, "constants: image 720 x 576 pixels, chip 6.4 x 4.8 mm");
-  }
-  EXPECT_THAT(reader.rest_of_out(),
-              HasSubstr(" degrees [euler studio_z_up image_distance consider_blank shift_on_chip]"));
+  const std::string out = reader.rest_of_out();
+  EXPECT_THAT(out, HasSubstr("constants: image 720 x 576 pixels, chip 6.4 x 4.8 mm\n"));
+  EXPECT_THAT(out, HasSubstr(" degrees [euler studio_z_up image_distance consider_blank shift_on_chip]\n"));
   EXPECT_EQ(reader.rest_of_err(), "");
   EXPECT_EQ(reader.wait(), 0);
 }
@@ -48,11 +42,11 @@ TEST(Examples, trk_dump_reads_what_write_mem_writes) {
   const std::string number = std::to_string(slot.number());
   Program writer({WRITE_MEM, number, "100000"});
   Program reader({TRK_TOOL, "dump", "shm:" + number, "--json", "--count", "3"});
-  EXPECT_THAT(reader.out_line().value_or(""), HasSubstr(R"("image_width":1920)"));
+  EXPECT_THAT(reader.out_line().value_or(""), HasSubstr(R"("imageWidth":1920)"));
   for (int i = 0; i < 2; ++i) {
     const std::string params = reader.out_line().value_or("");
     EXPECT_THAT(params, HasSubstr(R"("z":1.6)"));
-    EXPECT_THAT(params, HasSubstr(R"("fov":8.0)"));
+    EXPECT_THAT(params, HasSubstr(R"("fov":8,)"));
   }
   reader.rest_of_err();
   EXPECT_EQ(reader.wait(), 0);

@@ -1,0 +1,29 @@
+#!/usr/bin/env python3
+"""Whether the pages show the programs of doc/examples as they are, and all of them."""
+
+import pathlib
+import sys
+
+import pages
+
+
+def main():
+    doc = pathlib.Path(__file__).resolve().parents[2] / "doc"
+    examples = {path.read_text(encoding="utf-8"): path.name for path in sorted((doc / "examples").glob("*.c"))}
+    shown, faults = set(), []
+    for page in sorted(doc.glob("*.md")):
+        for block in pages.blocks_of(page.read_text(encoding="utf-8")):
+            if block.language != "c":
+                continue
+            if block.text in examples:
+                shown.add(examples[block.text])
+            else:
+                faults.append(f"{page.name}:{block.line}: is no program of doc/examples, or an old state of one")
+    faults += [f"doc/examples/{name}: no page shows it" for name in sorted(set(examples.values()) - shown)]
+    for fault in faults:
+        print(fault, file=sys.stderr)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
