@@ -42,6 +42,7 @@ TRK_PUBLIC trkError trkMemReadConstants(trkHandle handle, trkCameraConstants* co
 /* trkFailed when the format has unknown options or both trkVertical and trkDiagonal, a number is not finite, the
  * memory's layout cannot hold the counter (32-bit programs'), or there is no permission. */
 TRK_PUBLIC trkError trkMemWriteParams(trkHandle handle, const trkCameraParams* params);
+/* Whoever opens the slot later finds them. Fails as trkMemWriteParams does. */
 TRK_PUBLIC trkError trkMemWriteConstants(trkHandle handle, const trkCameraConstants* constants);
 
 #endif

@@ -20,6 +20,7 @@ TRK_PUBLIC trkError trkNetOpenWrite(const char* remoteHost, int remotePort, int 
 
 #endif
 
+/* Frees the port. Ends the handle in any case. */
 TRK_PUBLIC trkError trkNetClose(trkHandle handle);
 
 /* The newest parameters that arrived since the last call. Does not wait. A datagram that is not sound costs itself
@@ -39,6 +40,7 @@ TRK_PUBLIC trkError trkNetReadConstants(trkHandle handle, trkCameraConstants* co
 /* trkFailed when the format has unknown options or both trkVertical and trkDiagonal, a number is not finite, or the
  * system does not send. */
 TRK_PUBLIC trkError trkNetWriteParams(trkHandle handle, const trkCameraParams* params);
+/* Sent at once, and remembered for repeating. Fails as trkNetWriteParams does. */
 TRK_PUBLIC trkError trkNetWriteConstants(trkHandle handle, const trkCameraConstants* constants);
 
 #endif

@@ -68,6 +68,7 @@ enum {
   trkShiftInPixels = 0x200
 };
 
+/* What a function gives (document, section 7.2). */
 typedef enum {
   trkOK,             /* done */
   trkFailed,         /* not done; an open transfer should be ended */
@@ -89,11 +90,13 @@ enum { trkStringSize = 1024 };
  * value, with a decimal point whatever the locale. `size` is the buffer's; a text that does not fit gives trkFailed and
  * an empty string, as does a number that is not finite. */
 TRK_PUBLIC trkError trkParamsToString(const trkCameraParams* params, char* buffer, size_t size);
+/* The same of constants. */
 TRK_PUBLIC trkError trkConstantsToString(const trkCameraConstants* constants, char* buffer, size_t size);
 
 /* The record of a text: trkInvalidVersion, and the record left as it was, when the text is not sound. A leading camera
  * number "I<n>" is read over. */
 TRK_PUBLIC trkError trkStringToParams(const char* string, trkCameraParams* params);
+/* The same of constants. */
 TRK_PUBLIC trkError trkStringToConstants(const char* string, trkCameraConstants* constants);
 
 /* The identifiers of a format mask that matter for it, with single spaces between; bits without a name are left out. */

@@ -30,6 +30,7 @@ inline trkCameraParams to_c(const wire::CameraParams& p) noexcept {
   return c;
 }
 
+/// The way back; the id is 0.
 inline wire::CameraParams from_c(const trkCameraParams& c) noexcept {
   wire::CameraParams p;
   p.format = c.format;
@@ -54,6 +55,7 @@ inline trkCameraConstants to_c(const wire::CameraConstants& k) noexcept {
           k.blank_bottom, k.chip_width,   k.chip_height, k.fake_chip_width, k.fake_chip_height};
 }
 
+/// The way back; the id is 0.
 inline wire::CameraConstants from_c(const trkCameraConstants& c) noexcept {
   return {0,           c.imageWidth, c.imageHeight,   c.blankLeft,     c.blankRight, c.blankTop, c.blankBottom,
           c.chipWidth, c.chipHeight, c.fakeChipWidth, c.fakeChipHeight};

@@ -10,6 +10,7 @@
 
 namespace trk_bridge::camera {
 
+/// The models of CameraInfo that are published.
 enum class DistortionModel : std::uint8_t { plumb_bob, rational_polynomial };
 
 /// sensor_msgs' name of the model.

@@ -13,6 +13,7 @@
 
 namespace trk_bridge::camera {
 
+/// Why something is no camera, no lens or no picture, or cannot be told in a format.
 enum class CameraReason : std::uint8_t {
   not_finite,         ///< a number is NaN or infinite
   not_a_rotation,     ///< the matrix is not orthonormal to 1e-3, is a reflection, or its bottom row is not 0 0 0 1
@@ -39,12 +40,14 @@ struct Lens {
   double aperture = 0;
 };
 
+/// Where a camera is and what its lens does at one moment.
 struct Camera {
   /// studio_T_camera: camera axes (x right, y forward, z up) in the studio (x right, y into it, z up), metres.
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   Lens lens;
 };
 
+/// A value, or the reason why there is none.
 template <typename T>
 using Result = tl::expected<T, CameraReason>;
 
@@ -56,6 +59,7 @@ using Result = tl::expected<T, CameraReason>;
 [[nodiscard]] Result<Eigen::Isometry3d> decode_pose(const wire::CameraParams&) noexcept;
 /// The lens alone. `constants` may be null for image distance and considered blanks with shift on the chip.
 [[nodiscard]] Result<Lens> decode_lens(const wire::CameraParams&, const wire::CameraConstants* constants) noexcept;
+/// Both. `constants` may be null under the same conditions as for the lens.
 [[nodiscard]] Result<Camera> decode(const wire::CameraParams&, const wire::CameraConstants* constants) noexcept;
 
 /// The camera in `format`; id 0 and counter 0. `constants` may be null under the same conditions.
@@ -80,7 +84,9 @@ using Result = tl::expected<T, CameraReason>;
 struct PanTiltRoll {
   double pan = 0, tilt = 0, roll = 0;
 };
+/// The canonical angles of a rotation, which must be one to 1e-3.
 [[nodiscard]] PanTiltRoll pan_tilt_roll(const Eigen::Matrix3d& rotation) noexcept;
+/// The way back, exact at multiples of 90 degrees.
 [[nodiscard]] Eigen::Matrix3d rotation_of(const PanTiltRoll&) noexcept;
 
 }  // namespace trk_bridge::camera

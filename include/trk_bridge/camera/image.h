@@ -35,6 +35,7 @@ struct Raster {
 
 /// Chip (mm) <-> pixel in ROS coordinates: origin in the centre of the top left pixel, y down.
 [[nodiscard]] Eigen::Vector2d to_pixel(const Raster&, const Eigen::Vector2d& chip) noexcept;
+/// The way back: pixel to mm from the chip's centre, y up.
 [[nodiscard]] Eigen::Vector2d to_chip(const Raster&, const Eigen::Vector2d& pixel) noexcept;
 
 }  // namespace trk_bridge::camera

@@ -12,6 +12,7 @@
 
 namespace trk_bridge::ros1 {
 
+/// What is wrong with a CameraInfo.
 enum class InfoReason : std::uint8_t {
   no_size,        ///< width or height 0, or beyond what trk can tell
   binned,         ///< the image is not the whole one
@@ -21,6 +22,7 @@ enum class InfoReason : std::uint8_t {
   no_lens,        ///< `camera` says why K and D are no lens
 };
 
+/// Why a CameraInfo tells no lens.
 struct InfoFault {
   InfoReason reason{};
   camera::CameraReason camera{};

@@ -48,6 +48,7 @@ enum class Condition : std::uint8_t {
   sink_loses,
 };
 
+/// A condition that holds, and a line for a person.
 struct Finding {
   Condition condition;
   std::uint8_t level;  ///< of diagnostic_msgs::DiagnosticStatus

@@ -17,6 +17,7 @@ void to_msg(const wire::CameraConstants& constants, trk_bridge::CameraConstants&
 /// Size, model, D, K, R = identity, P = [K|0]; no binning, no region of interest. Allocates only when `message` is new.
 void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& message);
 
+/// The way back, field by field. Headers are not looked at.
 wire::CameraParams from_msg(const trk_bridge::CameraParams& message);
 wire::CameraConstants from_msg(const trk_bridge::CameraConstants& message);
 

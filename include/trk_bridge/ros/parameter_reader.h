@@ -31,17 +31,22 @@ class ParameterReader {
   /// A list of texts; one text is a list of one.
   std::optional<std::vector<std::string>> texts(const std::string& key);
   std::optional<double> number(const std::string& key);  ///< integers are numbers, too
+  /// A whole number.
   std::optional<int> integer(const std::string& key);
+  /// true or false.
   std::optional<bool> flag(const std::string& key);
+  /// A map, for a reader of its own.
   std::optional<XmlRpc::XmlRpcValue> map(const std::string& key);
 
   /// Makes `key` known without reading it: another reader's.
   void know(const std::string& key);
+  /// Whether `key` is given, of whatever type.
   bool has(const std::string& key) const;
   /// Keys that are given, sorted.
   std::vector<std::string> keys() const;
   const std::string& path() const { return path_; }
 
+  /// Makes a fault of every key that is given and was never asked for, with the nearest one that was.
   void refuse_unknown();
 
  private:

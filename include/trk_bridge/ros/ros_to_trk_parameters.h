@@ -14,6 +14,7 @@ class XmlRpcValue;
 
 namespace trk_bridge::ros1 {
 
+/// Everything that ros_to_trk can be told, with its defaults.
 struct RosToTrkParameters {
   std::string name;                ///< the camera's: names its diagnostics
   std::vector<std::string> sinks;  ///< endpoint URLs, at least one; each is written

@@ -36,6 +36,7 @@ struct CameraParameters {
 /// The word that leaves records in the sender's format.
 inline constexpr const char* as_received = "as_received";
 
+/// Everything that trk_to_ros can be told, with its defaults.
 struct TrkToRosParameters {
   /// At least one. Unless `several` was said, the only one's topics are in the node's namespace itself, else in one of
   /// its name below that.

@@ -77,6 +77,7 @@ struct MemoryEndpoint {
   std::string name;
 };
 
+/// One of them: what open_source() and open_sink() take.
 using Endpoint = std::variant<UdpEndpoint, ShmEndpoint, FileEndpoint, MemoryEndpoint>;
 
 /// Reads a URL. The error names the part, its value and what is allowed; an unknown option's lists the known ones for

@@ -7,8 +7,10 @@
 
 namespace trk_bridge::transport {
 
+/// What `Sender::number` and `Sender::address` mean.
 enum class SenderKind : std::uint8_t { none, ipv4, ipv6, shm, file, memory };
 
+/// An address and port, a slot, or what else a record comes from.
 struct Sender {
   SenderKind kind = SenderKind::none;
   std::array<std::uint8_t, 16> address{};  ///< network byte order; IPv4 in the first four, mapped IPv4 is told as IPv4

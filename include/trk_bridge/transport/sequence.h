@@ -7,6 +7,7 @@
 
 namespace trk_bridge::transport {
 
+/// The verdict on one counter.
 enum class Order : std::uint8_t {
   first,
   next,       ///< newer than all before; those missing between are counted as lost
@@ -35,6 +36,7 @@ class Sequence {
   /// `field_rate` in Hz, more than 0 and at most 1e6: how many counts a second has. Throws std::invalid_argument.
   explicit Sequence(double field_rate = 50.0);
 
+  /// Judges the next record's counter and counts the verdict.
   Order judge(std::uint64_t counter) noexcept;
   const SequenceCounts& counts() const noexcept { return counts_; }
 

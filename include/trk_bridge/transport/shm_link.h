@@ -23,6 +23,7 @@ enum class ShmRead : std::uint8_t {
 /// parameters written from then on, and constants written before as well. One thread at a time; allocates nothing.
 class ShmLink {
  public:
+  /// Which slot, and what to make where there is nothing.
   struct Options {
     int slot = 0;
     /// Writing makes a segment of this layout where there is none; null: it waits for somebody else's.
@@ -31,6 +32,7 @@ class ShmLink {
     bool recreate = false;  ///< trkMemRecreate: a fresh segment whenever all others have left
   };
 
+  /// What `now` is measured with.
   using Clock = std::chrono::steady_clock;
   /// How often it asks whether the slot still means this segment, and looks for one that is not there.
   static constexpr std::chrono::milliseconds check_period{200};

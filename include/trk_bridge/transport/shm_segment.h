@@ -34,13 +34,15 @@ struct ShmLayout {
 
 /// The layouts that a segment on this machine can have.
 const std::array<ShmLayout, 4>& shm_layouts() noexcept;
-/// Null when no segment has this size (this record layout).
+/// Null when no segment has this size.
 const ShmLayout* shm_layout_of_size(std::size_t) noexcept;
+/// Null when no segment on this machine has this record layout.
 const ShmLayout* shm_layout_of(wire::Layout) noexcept;
 
 /// The slot's file, "/tmp/dmc_tracking_buffer.7". The slot must be valid.
 std::string shm_slot_path(int slot);
 
+/// What is wrong with a slot.
 enum class ShmProblem : std::uint8_t {
   bad_slot,    ///< not 0..61
   no_file,     ///< nobody has opened the slot
@@ -111,6 +113,7 @@ class ShmSegment {
   ShmSegment& operator=(ShmSegment&&) noexcept;
   ~ShmSegment() { close(); }
 
+  /// Ends the attachment as the destructor does. Closing again does nothing.
   void close() noexcept;
 
   const ShmLayout& layout() const noexcept { return *layout_; }
@@ -128,6 +131,7 @@ class ShmSegment {
   std::uint16_t constants_counter() const noexcept;
   /// Copies the newest record. False when a writer changed it every time: then `into` holds nothing of use.
   [[nodiscard]] bool copy_params(ShmImage& into) const noexcept;
+  /// Copies the newest constants. False as above.
   [[nodiscard]] bool copy_constants(ShmImage& into) const noexcept;
 
   /// Writes the next record. The fault is that the segment's layout cannot hold it (a counter above 32 bits in an i386

@@ -14,6 +14,7 @@
 
 namespace trk_bridge::transport {
 
+/// What kind of fault it is.
 enum class SinkReason : std::uint8_t {
   not_encodable,      ///< `fault` says which field
   no_constants,       ///< a file begins with constants: none were written before the first parameters
@@ -24,6 +25,7 @@ enum class SinkReason : std::uint8_t {
   closed,             ///< close() was called before
 };
 
+/// Why a write or a close failed.
 struct SinkFault {
   SinkReason reason;
   wire::Fault fault{wire::Reason::truncated};
@@ -31,6 +33,7 @@ struct SinkFault {
 };
 std::string describe(const SinkFault&);
 
+/// What went out so far.
 struct SinkStatistics {
   std::uint64_t params = 0, constants = 0;  ///< records that went out, repeated constants counted
   std::uint64_t errors = 0;

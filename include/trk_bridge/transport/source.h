@@ -54,6 +54,7 @@ enum class SourceState : std::uint8_t {
   failed,
 };
 
+/// What has come so far.
 struct SourceStatistics {
   SourceState state = SourceState::waiting;
   std::uint64_t records = 0;  ///< valid ones handed out
@@ -68,6 +69,7 @@ struct SourceStatistics {
   std::string waiting_for;  ///< when waiting: "slot 7: no segment", "udp port 7000: bound, nothing received yet"
 };
 
+/// One place that records come from, opened by open_source().
 class Source {
  public:
   virtual ~Source() = default;

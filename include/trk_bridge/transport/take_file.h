@@ -43,6 +43,7 @@ tl::expected<std::int64_t, std::string> nanoseconds_of(const TimeCode&, double f
 /// codes begin anew. An error for rates outside of 1 to 1e6 Hz and for a frame above 99, which a code cannot tell.
 tl::expected<TimeCode, std::string> time_code_at(std::int64_t nanoseconds, double field_rate);
 
+/// A whole take in memory.
 struct Take {
   TimeCode time_code;
   wire::CameraConstants constants;

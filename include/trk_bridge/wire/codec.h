@@ -23,6 +23,7 @@ inline constexpr std::size_t header_size = 8;
 /// Room for any encoded record.
 using Buffer = std::array<char, max_datagram>;
 
+/// Byte 7 of a datagram.
 enum class Encoding : std::uint8_t { ascii, binary };
 
 /// How a datagram was encoded; `layout` counts for binary ones.
@@ -31,6 +32,7 @@ struct WireForm {
   Layout layout{};
 };
 
+/// A sound datagram.
 struct Decoded {
   Record record;
   WireForm form;
@@ -55,13 +57,17 @@ struct Decoded {
 /// numbers are decimal whatever they begin with (0720 is 720).
 [[nodiscard]] tl::expected<std::string_view, Fault> to_text(const CameraParams&, Buffer& buffer) noexcept;
 [[nodiscard]] tl::expected<std::string_view, Fault> to_text(const CameraConstants&, Buffer& buffer) noexcept;
+/// The record of such a text; the fault names the field.
 [[nodiscard]] tl::expected<CameraParams, Fault> params_from_text(std::string_view text) noexcept;
+/// The record of such a text; the fault names the field.
 [[nodiscard]] tl::expected<CameraConstants, Fault> constants_from_text(std::string_view text) noexcept;
 
 /// The binary image without header, as it also stands in shared memory; `image` must have the layout's size
 /// (wrong_size otherwise). A format mask is not judged: that is `decode`'s, which has to guess.
 [[nodiscard]] tl::expected<CameraParams, Fault> params_from_image(std::string_view image, Layout) noexcept;
+/// The same of constants.
 [[nodiscard]] tl::expected<CameraConstants, Fault> constants_from_image(std::string_view image, Layout) noexcept;
+/// The way back into `buffer`; refuses what encode() refuses.
 [[nodiscard]] tl::expected<std::string_view, Fault> to_image(const CameraParams&, Layout, Buffer& buffer) noexcept;
 [[nodiscard]] tl::expected<std::string_view, Fault> to_image(const CameraConstants&, Layout, Buffer& buffer) noexcept;
 

@@ -6,6 +6,7 @@
 
 namespace trk_bridge::wire {
 
+/// What is wrong with bytes, or with a record that is to be written.
 enum class Reason : std::uint8_t {
   too_long,         ///< more than max_datagram bytes
   truncated,        ///< shorter than its header, or ended before its last field

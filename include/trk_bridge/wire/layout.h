@@ -18,8 +18,10 @@ enum class Generation : std::uint8_t { document, identified };
 /// and 32-bit Windows, IRIX o32/n32, 32-bit ARM.
 enum class Abi : std::uint8_t { lp64, llp64, i386 };
 
+/// Of the sender's machine.
 enum class ByteOrder : std::uint8_t { little, big };
 
+/// Everything that decides where a field lies.
 struct Layout {
   Generation generation = Generation::document;
   Abi abi = Abi::lp64;
@@ -30,8 +32,9 @@ constexpr bool operator==(Layout a, Layout b) noexcept {
 }
 constexpr bool operator!=(Layout a, Layout b) noexcept { return !(a == b); }
 
-/// Bytes of a binary record in this layout, header not counted.
+/// Bytes of binary parameters in this layout, header not counted.
 std::size_t params_size(Layout) noexcept;
+/// Bytes of binary constants in this layout, header not counted.
 std::size_t constants_size(Layout) noexcept;
 
 /// "identified lp64 little-endian".

@@ -37,6 +37,7 @@ struct CameraConstants {
   double chip_width = 0, chip_height = 0, fake_chip_width = 0, fake_chip_height = 0;
 };
 
+/// What a datagram or a line carries.
 using Record = std::variant<CameraParams, CameraConstants>;
 
 /// Equal in every field, doubles by value; of `matrix` and `euler` only the one that `format` selects counts.
