@@ -1,7 +1,9 @@
 #include "fixture.h"
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <stdexcept>
 #include <utility>
 
 #include <ros/callback_queue.h>
@@ -41,6 +43,13 @@ bool is_served(const ::ros::Subscriber& subscriber, const std::string& publisher
     if (to == ::ros::this_node::getName() && direction == "o" && topic == subscriber.getTopic()) return true;
   }
   return false;
+}
+
+bool is_advertised(const std::string& topic) {
+  ::ros::master::V_TopicInfo topics;
+  if (!::ros::master::getTopics(topics)) throw std::runtime_error("the master does not tell its topics");
+  return std::any_of(topics.begin(), topics.end(),
+                     [&topic](const auto& advertised) { return advertised.name == topic; });
 }
 
 TransformRecorder::TransformRecorder(const std::string& topic, std::string child) {

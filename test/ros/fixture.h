@@ -27,6 +27,9 @@ bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds
 /// believes so before the other end knows of it, and /tf has other publishers.
 bool is_served(const ::ros::Subscriber& subscriber, const std::string& publisher);
 
+/// Whether some node publishes on this topic.
+bool is_advertised(const std::string& topic);
+
 /// Messages of one topic, in order of arrival.
 template <typename Message>
 class Recorder {
