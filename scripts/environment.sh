@@ -47,6 +47,12 @@ enter_devel_space() {
   set -u
 }
 
+# A UDP port of 127.0.0.1 that nobody receives on.
+free_udp_port() {
+  python3 -c 'import socket
+s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
+}
+
 # A TCP port of 127.0.0.1 that nobody listens on.
 free_tcp_port() {
   python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
