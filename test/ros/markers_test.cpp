@@ -133,7 +133,9 @@ TEST_F(Markers, AllFourOfBothCamerasAreOnOneTopicAndFallOnTheCornersOfTheirImage
       }
       EXPECT_DOUBLE_EQ(edges[2 * i + 1].z, 6);
     }
-    for (const auto& point : newest().at(name + "/focus").points) EXPECT_DOUBLE_EQ(point.z, 4.5);
+    const Marker focus = newest().at(name + "/focus");
+    EXPECT_FALSE(focus.points.empty());
+    for (const auto& point : focus.points) EXPECT_DOUBLE_EQ(point.z, 4.5);
     EXPECT_EQ(newest().at(name + "/name").text, name);
   }
 }
