@@ -1,11 +1,21 @@
-/* A tracker of its own: a camera that pans, written to shared memory 50 times a second: write_mem SLOT SETS. */
+/* A tracker of its own: a camera that pans, written to shared memory 50 times a second: write_mem SLOT SETS. Ends after
+ * SETS sets of parameters, or with Ctrl-C. */
 #define _POSIX_C_SOURCE 199309L
 #include <trk/trk_mem.h>
 
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+
+/* A process that is killed cannot close its handles and leaves the memory behind. */
+static volatile sig_atomic_t ended = 0;
+
+static void end(int signal_number) {
+  (void)signal_number;
+  ended = 1;
+}
 
 static void wait_for_a_field(void) {
   const struct timespec field = {0, 20000000};
@@ -34,10 +44,12 @@ int main(int argc, char** argv) {
     fprintf(stderr, "usage: write_mem SLOT SETS\n");
     return 2;
   }
+  signal(SIGINT, end);
+  signal(SIGTERM, end);
   error = trkMemOpen(atoi(argv[1]), &handle);
   if (error == trkOK) {
     error = trkMemWriteConstants(handle, &constants);
-    for (counter = 1; counter <= sets && error == trkOK; ++counter) {
+    for (counter = 1; counter <= sets && error == trkOK && !ended; ++counter) {
       const trkCameraParams params = camera_at(counter);
       error = trkMemWriteParams(handle, &params);
       wait_for_a_field();

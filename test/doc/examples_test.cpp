@@ -50,6 +50,10 @@ TEST(Examples, trk_dump_reads_what_write_mem_writes) {
   }
   reader.rest_of_err();
   EXPECT_EQ(reader.wait(), 0);
+  writer.signal(SIGTERM);
+  EXPECT_EQ(writer.rest_of_err(), "");
+  EXPECT_EQ(writer.wait(), 0);
+  EXPECT_FALSE(slot.has_file());
 }
 
 TEST(Examples, write_mem_leaves_no_memory_behind) {
