@@ -1,5 +1,7 @@
 #include "body.h"
 
+#include <OgreMaterial.h>
+
 namespace trk_bridge::rviz_display {
 namespace {
 
@@ -36,7 +38,11 @@ Body::Body(Ogre::SceneManager* scene, Ogre::SceneNode* optical) : node_(make_nod
 }
 
 void Body::show(const Ogre::ColourValue& colour, float length) {
-  for (const auto& shape : shapes_) shape->setColor(colour.r, colour.g, colour.b, colour.a);
+  for (const auto& shape : shapes_) {
+    shape->setColor(colour.r, colour.g, colour.b, colour.a);
+    // rviz has but one light, from the viewer: sides along the view would be black.
+    shape->getMaterial()->setSelfIllumination(colour * 0.35f);
+  }
   node_->setScale(length, length, length);
   if (node_->getParentSceneNode() == nullptr) optical_->addChild(node_.get());
 }

@@ -130,12 +130,12 @@ void DisplayProperties::add_texts(rviz::Property* display, const char* changed) 
   const Group name(display, "Camera Name", "Written above the camera.", changed);
   name_ = {name.on(), name.text("Text", "Empty: the namespace of the CameraInfo's topic."),
            name.colour({255, 255, 255}, "Of the letters."),
-           name.number("Height", 0.15f, shortest, 100, "Of a capital letter, m.")};
+           name.number("Height", 0.18f, shortest, 100, "Of a capital letter, m.")};
   const Group values(display, "Values", "Written below the camera.", changed);
   values_ = {
       values.on(),
       values.colour({220, 220, 220}, "Of the letters."),
-      values.number("Height", 0.1f, shortest, 100, "Of a capital letter, m."),
+      values.number("Height", 0.12f, shortest, 100, "Of a capital letter, m."),
       values.flag("Pan Tilt Roll", "Degrees: of CameraParams in the studio, without them of tf in the fixed frame."),
       values.flag("Focal Length", "The image distance in mm where CameraParams tell it, else fx in pixels."),
       values.flag("Field of View", "Degrees, horizontal x vertical, through the middles of the image's edges."),

@@ -38,7 +38,7 @@ struct FigureStyle {
   struct Text {
     bool on = true;
     Ogre::ColourValue colour;
-    double height = 0.15;
+    double height = 0.2;
   } name, values;
   struct Trail {
     bool on = true;
