@@ -107,22 +107,36 @@ inline std::optional<Crossing> cross_line(const cv::Mat& picture, const Eigen::V
   return Crossing{near + moment / weight * normal, weight};
 }
 
-/// Middles of those crossings that were met on both sides and have the weight of their neighbourhood: where a line is
-/// half covered by something else its middle is elsewhere.
-inline std::vector<Eigen::Vector2d> whole_centers(const std::vector<std::optional<Crossing>>& crossings) {
+/// Which of the crossings have the weight of their neighbourhood: of a line that is half covered by something else the
+/// middle is elsewhere.
+inline std::vector<bool> are_whole(const std::vector<std::optional<Crossing>>& crossings) {
   constexpr std::size_t around = 12;
   constexpr double tolerance = 0.015;
-  std::vector<Eigen::Vector2d> centers;
+  std::vector<bool> whole(crossings.size());
   std::vector<double> weights;
-  for (std::size_t i = 1; i + 1 < crossings.size(); ++i) {
-    if (!crossings[i - 1] || !crossings[i] || !crossings[i + 1]) continue;
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    if (!crossings[i]) continue;
     weights.clear();
     for (std::size_t j = i < around ? 0 : i - around; j < std::min(crossings.size(), i + around + 1); ++j) {
       if (crossings[j]) weights.push_back(crossings[j]->weight);
     }
     const auto middle = weights.begin() + static_cast<std::ptrdiff_t>(weights.size() / 2);
     std::nth_element(weights.begin(), middle, weights.end());
-    if (std::abs(crossings[i]->weight - *middle) <= tolerance * *middle) centers.push_back(crossings[i]->center);
+    whole[i] = std::abs(crossings[i]->weight - *middle) <= tolerance * *middle;
+  }
+  return whole;
+}
+
+/// Middles of those crossings that are whole as are those next to them.
+inline std::vector<Eigen::Vector2d> whole_centers(const std::vector<std::optional<Crossing>>& crossings) {
+  constexpr std::size_t next = 2;
+  const std::vector<bool> whole = are_whole(crossings);
+  std::vector<Eigen::Vector2d> centers;
+  for (std::size_t i = next; i + next < crossings.size(); ++i) {
+    const auto at = [&](std::size_t index) { return whole.begin() + static_cast<std::ptrdiff_t>(index); };
+    if (std::all_of(at(i - next), at(i + next + 1), [](bool one) { return one; })) {
+      centers.push_back(crossings[i]->center);
+    }
   }
   return centers;
 }
