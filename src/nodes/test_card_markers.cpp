@@ -28,7 +28,7 @@ visualization_msgs::Marker marker(const Look& look, const std::string& studio_fr
   marker.color.r = look.red;
   marker.color.g = look.green;
   marker.color.b = look.blue;
-  marker.color.a = 1;
+  marker.color.a = 0.6F;  // the picture shows through
   return marker;
 }
 
