@@ -160,7 +160,7 @@ TEST_F(Conditions, ConstantsOfTheParameterServeUntilOthersAreReceived) {
   tracker->send(test::params(2));
   ASSERT_TRUE(eventually([this] { return infos->messages.size() == 2; }));
   EXPECT_EQ(infos->messages[1].width, 1920u);
-  EXPECT_EQ(constants->messages.back().image_width, 1920);
+  EXPECT_TRUE(eventually([this] { return constants->messages.back().image_width == 1920; }));
 }
 
 TEST_F(Conditions, DelayIsTakenOffEveryStamp) {
