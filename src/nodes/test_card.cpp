@@ -47,6 +47,8 @@ TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node
   image_transport::ImageTransport transport(node);
   images_ = transport.advertise("image_raw", 1);
   rectified_images_ = transport.advertise("image_rect", 1);
+  paired_images_ = transport.advertise("rectified/image", 1);
+  paired_infos_ = node.advertise<sensor_msgs::CameraInfo>("rectified/camera_info", 1);
   markers_ = node.advertise<visualization_msgs::MarkerArray>("test_card", 1, /*latch=*/true);
   markers_.publish(test_card::markers_of(figure_, parameters.studio_frame));
 
@@ -62,7 +64,7 @@ TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node
 }
 
 void TestCard::take(const trk_bridge::CameraParamsConstPtr& message) {
-  const bool raw = images_.getNumSubscribers() > 0, rectified = rectified_images_.getNumSubscribers() > 0;
+  const bool raw = images_.getNumSubscribers() > 0, rectified = rectified_wanted();
   if (!raw && !rectified) return;
   const auto now = Clock::now();
   if (now < due_) return;
@@ -104,6 +106,10 @@ bool TestCard::render(const trk_bridge::CameraParams& params) {
   return true;
 }
 
+bool TestCard::rectified_wanted() const {
+  return rectified_images_.getNumSubscribers() > 0 || paired_images_.getNumSubscribers() > 0;
+}
+
 void TestCard::rectify_when_told() {
   if (!to_be_rectified_) return;
   const auto found = std::find_if(infos_.rbegin(), infos_.rend(), [this](const sensor_msgs::CameraInfoConstPtr& info) {
@@ -130,7 +136,13 @@ void TestCard::rectify(const sensor_msgs::CameraInfo& info) {
   rectified_.header = image_.header;
   cv::Mat rectified = picture_of(rectified_, width, height);
   model_.rectifyImage(picture_of(image_, width, height), rectified, cv::INTER_LINEAR);
-  rectified_images_.publish(rectified_);
+  if (rectified_images_.getNumSubscribers() > 0) rectified_images_.publish(rectified_);
+  if (paired_images_.getNumSubscribers() > 0) {
+    sensor_msgs::CameraInfo straight = info;
+    std::fill(straight.D.begin(), straight.D.end(), 0.0);
+    paired_infos_.publish(straight);
+    paired_images_.publish(rectified_);
+  }
   rectification_trouble_.tell("");
 }
 

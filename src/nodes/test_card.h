@@ -21,7 +21,9 @@ namespace trk_bridge::nodes {
 
 /// Renders a test card in the studio as the camera of `params` and `constants` sees it, distortion and all, into
 /// `image_raw`, and rectifies that by the `camera_info` of the same stamp into `image_rect`, each only while somebody
-/// subscribes. Neither tf nor CameraInfo has a part in image_raw: whether they agree with it can be seen and measured.
+/// subscribes. `rectified/image` is image_rect again, with a `rectified/camera_info` that comes before each image and
+/// has its stamp and no distortion: viewers that take the newest CameraInfo for any image are right then while the lens
+/// zooms. Neither tf nor CameraInfo has a part in image_raw: whether they agree with it can be seen and measured.
 /// The card itself is published as markers, latched, on `test_card`. All callbacks come from one thread.
 class TestCard {
  public:
@@ -39,6 +41,7 @@ class TestCard {
   bool render(const trk_bridge::CameraParams&);
   void rectify(const sensor_msgs::CameraInfo&);
   void rectify_when_told();
+  bool rectified_wanted() const;
 
   /// What is wrong, "" for nothing: logged when it changes.
   struct Trouble {
@@ -57,8 +60,8 @@ class TestCard {
   image_geometry::PinholeCameraModel model_;
   Trouble picture_trouble_, rectification_trouble_;
 
-  image_transport::Publisher images_, rectified_images_;
-  ::ros::Publisher markers_;
+  image_transport::Publisher images_, rectified_images_, paired_images_;
+  ::ros::Publisher paired_infos_, markers_;
   ::ros::Subscriber params_subscriber_, constants_subscriber_, info_subscriber_;
 };
 
