@@ -346,6 +346,28 @@ INSTANTIATE_TEST_SUITE_P(Sights, TestCardAtRest,
                          ::testing::Values(std::array{0.0, -4.0, 0.0, 1.0}, std::array{14.0, -9.0, 11.0, 0.8},
                                            std::array{-5.0, -2.0, -20.0, 0.0}));
 
+TEST_F(TestCard, PairsEveryRectifiedImageWithACameraInfoOfItsOwn) {
+  Recorder<sensor_msgs::Image> images(name_space + "/rectified/image");
+  Recorder<sensor_msgs::CameraInfo> infos(name_space + "/rectified/camera_info");
+  ASSERT_NO_FATAL_FAILURE(start_card());
+  const std::string card = name_space + "/test_card";
+  ASSERT_TRUE(eventually([&] { return images.connected_to(card) && infos.connected_to(card); }));
+  ASSERT_TRUE(send_until([](int i) { return at(0, -5, 0, 0.5 + 0.5 * std::cos(i * 0.04)); },
+                         [&] { return images.messages.size() >= 5; }));
+  ASSERT_GE(infos.messages.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto& stamp = images.messages[i].header.stamp;
+    EXPECT_EQ(infos.messages[i].header.stamp, stamp);
+    EXPECT_THAT(infos.messages[i].D, ::testing::Each(0.0));
+    const auto* lens = with_stamp(infos_->messages, stamp);
+    ASSERT_NE(lens, nullptr);
+    EXPECT_EQ(infos.messages[i].P, lens->P);
+    if (const auto* rectified = with_stamp(rectified_->messages, stamp); rectified != nullptr) {
+      EXPECT_EQ(images.messages[i].data, rectified->data);
+    }
+  }
+}
+
 TEST_F(TestCard, MarksTheStudioForWhoeverComesLate) {
   ASSERT_NO_FATAL_FAILURE(start_card());
   EXPECT_EQ(marker("points").header.frame_id, "studio");
