@@ -10,6 +10,10 @@ namespace trk_bridge::ros1 {
 std::string seconds_text(double seconds);
 /// Two digits behind the point.
 std::string rate_text(double rate);
+/// Three digits behind the point.
+std::string pixels_text(double pixels);
+/// An error of a lens that is smaller than this (px) nobody sees.
+inline constexpr double visible_pixels = 0.01;
 /// `from` and `to` in ns.
 double seconds_between(std::int64_t from, std::int64_t to);
 /// Events a second between two looks, `from` and `to` in ns; 0 when no time has passed.

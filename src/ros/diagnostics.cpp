@@ -136,6 +136,10 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
   if (!no_constants && camera.without_camera_info > old.without_camera_info) {
     warn(Condition::no_camera_info, "no camera_info: " + camera::describe(camera.info_reason));
   }
+  if (camera.has_camera_info && camera.fit_residual > visible_pixels) {
+    warn(Condition::lens_inexact,
+         "camera_info tells the distortion to " + pixels_text(camera.fit_residual) + " px, no better");
+  }
   if (now.markers.not_drawn > before.markers.not_drawn) {
     warn(Condition::no_markers, "no markers: " + describe(now.markers.reason));
   }

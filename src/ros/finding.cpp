@@ -34,6 +34,12 @@ std::string rate_text(double rate) {
   return text;
 }
 
+std::string pixels_text(double pixels) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", pixels);
+  return text;
+}
+
 double seconds_between(std::int64_t from, std::int64_t to) {
   return static_cast<double>(to - from) / nanoseconds_per_second;
 }

@@ -11,15 +11,6 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-/// Below this a lens lost nothing that anybody could see.
-constexpr double visible_pixels = 0.01;
-
-std::string pixels_text(double pixels) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", pixels);
-  return text;
-}
-
 /// "1700000000.020", as stamps are printed elsewhere.
 std::string stamp_text(std::int64_t nanoseconds) {
   char text[32];

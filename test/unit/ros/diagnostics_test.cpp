@@ -159,6 +159,16 @@ TEST_F(Diagnostics, NoCameraInfoSaysWhy) {
   expect(DiagnosticStatus::WARN, "no camera_info: " + camera::describe(camera::CameraReason::not_monotonic));
 }
 
+TEST_F(Diagnostics, ALensThatCameraInfoTellsInexactlyIsToldWithItsError) {
+  now.camera.has_camera_info = true;
+  now.camera.fit_residual = 0.01;
+  expect(DiagnosticStatus::OK, "receiving");
+  now.camera.fit_residual = 0.047;
+  expect(DiagnosticStatus::WARN, "camera_info tells the distortion to 0.047 px, no better");
+  now.camera.has_camera_info = false;
+  expect(DiagnosticStatus::OK, "receiving");
+}
+
 TEST_F(Diagnostics, NoMarkersSaysWhy) {
   now.markers.not_drawn = before.markers.not_drawn = 5;
   expect(DiagnosticStatus::OK, "receiving");
