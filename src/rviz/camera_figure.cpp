@@ -118,6 +118,7 @@ void CameraFigure::write(const std::string& name, const std::string& values, con
 }
 
 void CameraFigure::draw(const Trail& trail, const FigureStyle& style) {
+  for (Lines* lines : {&frustum_, &image_outline_, &straight_outline_, &focus_outline_, &axis_}) lines->face_viewer();
   trail_.show(style.trail.on ? lines_of(trail) : Points{}, style.trail.colour,
               static_cast<float>(style.trail.line_width));
 }

@@ -14,6 +14,7 @@ void Lines::show(const std::vector<Eigen::Vector3d>& pairs, const Ogre::ColourVa
     room_ = segments + segments / 2;
     line_.setNumLines(room_);
   }
+  width_ = width;
   line_.setLineWidth(width);
   line_.setColor(colour.r, colour.g, colour.b, colour.a);
   for (std::uint32_t i = 0; i < segments; ++i) {
@@ -21,6 +22,11 @@ void Lines::show(const std::vector<Eigen::Vector3d>& pairs, const Ogre::ColourVa
     line_.addPoint(to_ogre(pairs[2 * i]));
     line_.addPoint(to_ogre(pairs[2 * i + 1]));
   }
+}
+
+void Lines::face_viewer() {
+  // Ogre turns a chain to its camera only when the chain itself has changed, not when node or camera have moved.
+  line_.setLineWidth(width_);
 }
 
 }  // namespace trk_bridge::rviz_display

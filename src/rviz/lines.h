@@ -19,8 +19,12 @@ class Lines {
   void show(const std::vector<Eigen::Vector3d>& pairs, const Ogre::ColourValue& colour, float width);
   void hide() { line_.clear(); }
 
+  /// To be called before every frame: makes the lines as wide as they are for whoever looks at them from anywhere.
+  void face_viewer();
+
  private:
   rviz::BillboardLine line_;
+  float width_ = 0;
   std::uint32_t room_ = 0;  // for so many segments
 };
 
