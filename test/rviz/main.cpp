@@ -1,4 +1,5 @@
-#include <memory>
+#include <algorithm>
+#include <cstdio>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -14,15 +15,17 @@ RvizWindow* the_window = nullptr;
 
 /// Shows who was not there what a failed test saw.
 class PicturesOfFailures : public ::testing::EmptyTestEventListener {
+  void OnTestStart(const ::testing::TestInfo& test) override {
+    name_ = std::string(test.test_suite_name()) + "." + test.name();
+    std::replace(name_.begin(), name_.end(), '/', '_');
+  }
   void OnTestPartResult(const ::testing::TestPartResult& result) override {
     if (!result.failed()) return;
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    if (test == nullptr) return;
-    std::string name = std::string(test->test_suite_name()) + "." + test->name();
-    for (char& c : name) c = c == '/' ? '_' : c;
-    const std::string path = results_directory() + "/failed_" + name + ".png";
+    const std::string path = results_directory() + "/failed_" + name_ + ".png";
     if (RvizWindow::screen().save(QString::fromStdString(path))) std::printf("The screen then: %s\n", path.c_str());
   }
+
+  std::string name_;
 };
 
 }  // namespace
