@@ -55,7 +55,9 @@ def environment_of(build, devel, display):
         "DISPLAY": display,
         "LIBGL_ALWAYS_SOFTWARE": "1",
         "ROS_IP": "127.0.0.1",
-        "PYTHONUNBUFFERED": "1",  # into a file, as roslaunch speaks to a terminal
+        # Into a file as to a terminal: what is said comes at once.
+        "PYTHONUNBUFFERED": "1",
+        "ROSCONSOLE_STDOUT_LINE_BUFFERED": "1",
     }
     return {**found, **own}
 

@@ -5,8 +5,8 @@ A page shows commands in fences that say `sh`, and marks each with a comment rig
     <!-- run -->                          all lines, as one shell runs them, end with exit code 0
     <!-- run: prints TEXT -->             and print TEXT
     <!-- run: fails, prints TEXT -->      end with another exit code, and print TEXT
-    <!-- run: background -->              one command that prints something and lives until its section ends; there
-                                          Ctrl-C ends it with exit code 0
+    <!-- run: background -->              one command that lives until its section ends, where Ctrl-C ends it with
+                                          exit code 0
     <!-- run: background until TEXT -->   the same; what follows waits for TEXT
     <!-- run by: FILE -->                 FILE, a script of the repository, has these commands
     <!-- needs hardware: WHY -->          nobody runs it; its syntax is checked

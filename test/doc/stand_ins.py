@@ -80,7 +80,7 @@ def stand_ins(root, build, slot):
         StandIn(r"/path/to/trk_bridge\b", shlex.quote(str(root)), "where the reader has the repository"),
         StandIn(r"(?<![\w/.])\./scripts/", shlex.quote(str(root)) + "/scripts/", "commands run in an empty folder"),
         StandIn(r"(?<![\w/.])test/data/", shlex.quote(str(root)) + "/test/data/", "the same"),
-        StandIn(r"(?<![\w/.])build/devel/", f"{build}/devel/", "the build that the tests are of"),
+        StandIn(r"(?<![\w/.])build/(?=devel/|doc/)", f"{build}/", "the build that the tests are of"),
         StandIn(r"(?<=--install )build\b", build, "the same"),
         StandIn(r"(?<=--build )build\b", build, "the same"),
         # That catkin finds, configures and builds the package in a workspace is what differs from other builds.
