@@ -1,4 +1,4 @@
-// What is saved is loaded again, and the configurations of this package show what they promise.
+// What is saved is loaded again.
 #include <map>
 #include <stdexcept>
 #include <string>

@@ -40,11 +40,17 @@ std::string results_directory() {
 
 }  // namespace trk_bridge::test
 
+/// Its first argument is the configuration that rviz starts with; rostest may add some of its own.
 int main(int argc, char** argv) {
   ::testing::InitGoogleMock(&argc, argv);
   ::ros::init(argc, argv, "rviz_rostest");
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: %s CONFIGURATION\n", argv[0]);
+    return 2;
+  }
+  const std::string configuration = argv[1];
   QApplication application(argc, argv);
-  trk_bridge::test::RvizWindow window(application, TRK_BRIDGE_RVIZ_TEST_CONFIGURATION);
+  trk_bridge::test::RvizWindow window(application, configuration);
   trk_bridge::test::the_window = &window;
   ::testing::UnitTest::GetInstance()->listeners().Append(new trk_bridge::test::PicturesOfFailures);
   return RUN_ALL_TESTS();

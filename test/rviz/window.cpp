@@ -6,6 +6,7 @@
 #include <OgreCamera.h>
 #include <rviz/display_factory.h>
 #include <rviz/display_group.h>
+#include <rviz/properties/color_property.h>
 #include <rviz/properties/status_list.h>
 #include <rviz/render_panel.h>
 #include <rviz/view_controller.h>
@@ -43,6 +44,10 @@ rviz::Property& property(rviz::Property& root, const std::vector<std::string>& n
     at = below;
   }
   return *at;
+}
+
+QColor colour_of(rviz::Property& root, const std::vector<std::string>& names) {
+  return dynamic_cast<rviz::ColorProperty&>(property(root, names)).getColor();
 }
 
 std::optional<Status> status(const rviz::Display& display, const std::string& name) {

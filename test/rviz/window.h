@@ -28,6 +28,9 @@ namespace trk_bridge::test {
 /// not there.
 rviz::Property& property(rviz::Property& root, const std::vector<std::string>& names);
 
+/// The colour of such an entry. Throws std::out_of_range, or std::bad_cast where it is none.
+QColor colour_of(rviz::Property& root, const std::vector<std::string>& names);
+
 struct Status {
   rviz::StatusProperty::Level level;
   std::string text;
