@@ -161,6 +161,7 @@ class Report:
     def write(self, path):
         self._suite.set("tests", str(len(self._suite)))
         self._suite.set("failures", str(self.failed))
+        self._suite.set("errors", "0")
         self._suite.set("skipped", str(self.skipped))
         path.parent.mkdir(parents=True, exist_ok=True)
         xml.etree.ElementTree.ElementTree(self._suite).write(path, encoding="utf-8", xml_declaration=True)

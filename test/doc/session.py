@@ -90,6 +90,7 @@ class Terminals:
     """The terminals of one section of a page: what runs in the background, and an environment for all of it."""
 
     PATIENCE = 60  # s, for a command to end or to print what it is waited for
+    LEAVING = 10  # s, for what commands have started to end with them
 
     def __init__(self, environment, folder, logs):
         self._mark = uuid.uuid4().hex
@@ -127,7 +128,7 @@ class Terminals:
         try:
             while self._background:
                 self._background.pop().interrupt(30)
-            if wait_for(lambda: not self._left(), 10):
+            if wait_for(lambda: not self._left(), self.LEAVING):
                 return
             raise CommandError("left behind: " + ", ".join(self._left().values()))
         finally:

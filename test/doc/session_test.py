@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""What the command test sees of commands that do not do what their page says."""
+
+import os
+import pathlib
+import tempfile
+import unittest
+
+from session import CommandError, Terminals, wait_for
+
+
+class Sessions(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.terminals = Terminals({"PATH": os.environ["PATH"]}, self.folder, self.folder)
+
+    def refused(self, why):
+        return self.assertRaisesRegex(CommandError, why)
+
+    def test_every_line_must_succeed(self):
+        self.terminals.run("true\necho word >file\n")
+        self.assertEqual((self.folder / "file").read_text(), "word\n")
+        with self.refused("ended with 1"):
+            self.terminals.run("false\ntrue\n")
+
+    def test_what_is_to_fail_must_fail_and_say_so(self):
+        self.terminals.run("echo no >&2; exit 3", prints="no", fails=True)
+        with self.refused("ended with 0"):
+            self.terminals.run("echo no", prints="no", fails=True)
+        with self.refused("has not printed 'yes'"):
+            self.terminals.run("echo no; exit 3", prints="yes", fails=True)
+
+    def test_nodes_that_die_are_seen(self):
+        with self.refused("says 'process has died'"):
+            self.terminals.run("echo '[a-1] process has died [pid 1, exit code 1]'")
+
+    def test_background_lives_until_ctrl_c(self):
+        self.terminals.run_in_background("trap 'touch ended; exit 0' INT; echo up; while :; do sleep 0.05; done", "up")
+        self.assertFalse((self.folder / "ended").exists())
+        self.terminals.close()
+        self.assertTrue((self.folder / "ended").exists())
+
+    def test_background_that_ends_is_refused(self):
+        with self.refused("has ended with 0 before it printed 'up'"):
+            self.terminals.run_in_background("true", "up")
+        with self.refused("has ended by itself with 0"):
+            self.terminals.close()
+
+    def test_background_that_ends_badly_is_refused(self):
+        self.terminals.run_in_background("trap 'exit 4' INT; echo up; while :; do sleep 0.05; done", "up")
+        with self.refused("ended with 4 after Ctrl-C"):
+            self.terminals.close()
+
+    def test_nothing_is_left_behind(self):
+        self.terminals.LEAVING = 0.2
+        self.terminals.run("setsid sleep 1000 >/dev/null 2>&1 & echo $! >pid")
+        with self.refused("left behind: sleep 1000"):
+            self.terminals.close()
+        command_line = pathlib.Path("/proc", (self.folder / "pid").read_text().strip(), "cmdline")
+        # Gone, or waiting for its parent to ask for its exit code.
+        self.assertTrue(wait_for(lambda: not command_line.exists() or not command_line.read_bytes(), 5))
+
+    def test_syntax(self):
+        self.terminals.check_syntax("sudo tcpdump 'it'")
+        with self.refused("unexpected"):
+            self.terminals.check_syntax("if 'it")
+
+
+if __name__ == "__main__":
+    unittest.main()
