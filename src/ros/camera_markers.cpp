@@ -103,7 +103,7 @@ void CameraMarkers::take_lens(const sensor_msgs::CameraInfo& info) {
 
 void CameraMarkers::take_focus(double focdist) {
   Marker& plane = markers_.markers[focus];
-  if (!(focdist > 0 && focdist <= farthest_focus_marker)) {
+  if (!camera::draws_focus(focdist)) {
     plane.action = Marker::DELETE;
     return;
   }

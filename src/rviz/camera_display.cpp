@@ -123,7 +123,7 @@ void CameraDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
 
 std::optional<CameraDisplay::Sample> CameraDisplay::choose(const FixedFrame& fixed, const ros::Time& now) {
   if (!info_.alive(now, properties_.timeout())) {
-    status_.nothing_drawn(false);
+    tell_undrawn(/*transform_missing=*/false);
     return std::nullopt;
   }
   Sample sample;
@@ -135,7 +135,7 @@ std::optional<CameraDisplay::Sample> CameraDisplay::choose(const FixedFrame& fix
   if (!sample.info) {
     const auto newest = info_.samples().newest();
     status_.transform(fixed.why_unknown(newest->header.frame_id, newest->header.stamp));
-    status_.nothing_drawn(true);
+    tell_undrawn(/*transform_missing=*/true);
     return std::nullopt;
   }
   status_.transform("");
@@ -214,11 +214,16 @@ void CameraDisplay::tell_drawn(const Sample& sample) {
   status_.lens(lens_);
   status_.frustum(style_.frustum.on, style_.frustum.near, style_.frustum.far);
   if (style_.focus_plane.on && sample.params) {
-    status_.focus_plane(sample.params->focdist, CameraFigure::farthest_focus);
+    status_.focus_plane(sample.params->focdist);
   } else {
     status_.no_focus_plane();
   }
   status_.age(sample.info->header.stamp, info_.last_arrival());
+}
+
+void CameraDisplay::tell_undrawn(bool transform_missing) {
+  status_.nothing_drawn(transform_missing);
+  if (const auto newest = info_.samples().newest()) status_.age(newest->header.stamp, info_.last_arrival());
 }
 
 }  // namespace trk_bridge::rviz_display

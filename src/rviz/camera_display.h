@@ -64,6 +64,7 @@ class CameraDisplay : public rviz::Display {
   std::string values_text(const Sample& sample) const;
   void tell_topics(const ros::Time& now, const std::string& pose_fault);
   void tell_drawn(const Sample& sample);
+  void tell_undrawn(bool transform_missing);
 
   DisplayProperties properties_;
   FigureStyle style_;

@@ -67,8 +67,7 @@ void CameraFigure::shape(const camera::ImageBorder* border, double focus_distanc
   if (border != nullptr) {
     if (style.frustum.on && style.frustum.near < style.frustum.far) shape_frustum(*border, style);
     if (style.image_plane.on) shape_image_plane(*border, style);
-    const bool drawn = focus_distance > 0 && focus_distance <= farthest_focus;
-    if (style.focus_plane.on && drawn) shape_focus_plane(*border, focus_distance, style);
+    if (style.focus_plane.on && camera::draws_focus(focus_distance)) shape_focus_plane(*border, focus_distance, style);
   }
 
   const Points axis{Eigen::Vector3d::Zero(), style.axis.length * Eigen::Vector3d::UnitZ()};

@@ -19,13 +19,10 @@ namespace trk_bridge::rviz_display {
 /// For the thread that renders. Nothing is seen of it before place() and shape().
 class CameraFigure {
  public:
-  /// Farther than this, m, a plane in focus is not drawn: lenses tell "infinity" in many numbers.
-  static constexpr double farthest_focus = 1000;
-
   CameraFigure(Ogre::SceneManager* scene, Ogre::SceneNode* fixed);
 
   /// The lines and areas that follow from the lens; with no border (the lens is none) the frustum and the planes are
-  /// left out. `focus_distance` in m; none is drawn unless it is more than 0 and at most farthest_focus.
+  /// left out. `focus_distance` in m.
   void shape(const camera::ImageBorder* border, double focus_distance, const FigureStyle& style);
   void place(const Eigen::Isometry3d& fixed_T_optical);
   void write(const std::string& name, const std::string& values, const FigureStyle& style);

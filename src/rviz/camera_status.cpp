@@ -94,12 +94,12 @@ void CameraStatus::frustum(bool on, double near, double far) {
   }
 }
 
-void CameraStatus::focus_plane(double distance, double farthest) {
-  if (distance > 0 && distance <= farthest) {
+void CameraStatus::focus_plane(double distance) {
+  if (camera::draws_focus(distance)) {
     set(StatusLevel::ok, "Focus Plane", metres(distance));
   } else {
     set(StatusLevel::ok, "Focus Plane",
-        "not drawn: focdist is " + metres(distance) + ", drawn is more than 0 up to " + metres(farthest));
+        "not drawn: focdist is " + metres(distance) + ", drawn is more than 0 up to " + metres(camera::farthest_focus));
   }
 }
 
@@ -110,7 +110,7 @@ void CameraStatus::age(const ros::Time& stamp, const ros::Time& arrival) {
 
 void CameraStatus::nothing_drawn(bool transform_missing) {
   if (!transform_missing) lines_.remove("Transform");
-  for (const char* name : {"Lens", "Frustum", "Focus Plane", "Age"}) lines_.remove(name);
+  for (const char* name : {"Lens", "Frustum", "Focus Plane"}) lines_.remove(name);
 }
 
 }  // namespace trk_bridge::rviz_display

@@ -39,12 +39,13 @@ class CameraStatus {
   void lens(const LensView&);
   /// A frustum between these depths, m.
   void frustum(bool on, double near, double far);
-  /// `distance` is focdist in m, the plane is drawn up to `farthest`.
-  void focus_plane(double distance, double farthest);
+  /// `distance` is focdist in m.
+  void focus_plane(double distance);
   void no_focus_plane() { lines_.remove("Focus Plane"); }
+  /// Of the CameraInfo that is drawn, or of the newest where none is.
   void age(const ros::Time& stamp, const ros::Time& arrival);
 
-  /// Nothing is drawn: no line about what is. The transform's stays where it is the reason.
+  /// Nothing is drawn: no line about what is. The transform's stays where it is the reason, the age's always.
   void nothing_drawn(bool transform_missing);
 
  private:

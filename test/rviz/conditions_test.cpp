@@ -97,6 +97,7 @@ TEST_F(Conditions, ACameraThatIsGoneIsNotDrawnAfterTheTimeout) {
   camera.publishes({false, false, false});
   EXPECT_TRUE(vanishes()) << statuses(display);
   EXPECT_TRUE(window().tells(display, "Camera Info", warn, "no messages on " + camera.info_topic()));
+  EXPECT_TRUE(window().tells(display, "Age", warn, "older than"));
   EXPECT_TRUE(window().tells(display, "Camera Params", warn, "no messages on " + camera.params_topic()));
   camera.publishes({});
   EXPECT_TRUE(becomes(tracked)) << "it has come back" << statuses(display);

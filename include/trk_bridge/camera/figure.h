@@ -46,6 +46,12 @@ struct ImageBorder {
 /// The widest angle off the optical axis that is drawn, degrees: beyond it a border at any depth is far away.
 inline constexpr double widest_drawn_angle = 89;
 
+/// Farther off than this (m) a plane in focus is not drawn: lenses tell "infinity" in many numbers.
+inline constexpr double farthest_focus = 1000;
+
+/// Whether a plane in focus at `focdist` (m) is drawn: more than 0, at most farthest_focus.
+[[nodiscard]] constexpr bool draws_focus(double focdist) noexcept { return focdist > 0 && focdist <= farthest_focus; }
+
 /// Exact for D with tangential terms, too. Takes some microseconds, a fraction of a millisecond for lenses that are
 /// nearly folded: keep the result while the lens stays. Allocates nothing. Errors: bad_calibration (K that no camera
 /// has, another number of coefficients, an image without pixels or of no extent), not_monotonic (D folds within the

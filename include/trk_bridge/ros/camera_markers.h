@@ -15,8 +15,6 @@ namespace trk_bridge::ros1 {
 
 /// Where the frustum begins, m.
 inline constexpr double marker_near = 0.2;
-/// Planes in focus farther off than this (m) are not drawn: the lens is focused at infinity.
-inline constexpr double farthest_focus_marker = 1000;
 
 /// What became of a camera's markers so far. Trivially copyable.
 struct MarkerStatistics {
@@ -27,9 +25,9 @@ struct MarkerStatistics {
 /// Makes four markers of every sample, each with id 0 in a namespace of its own: `<camera>/frustum` (LINE_LIST,
 /// marker_near to `far`), `<camera>/axis` (LINE_LIST, to `far`), `<camera>/focus` (TRIANGLE_LIST) and `<camera>/name`
 /// (TEXT_VIEW_FACING, above the camera). They are in the optical frame, m, and fixed where that was at their stamp.
-/// What cannot be drawn has the action DELETE: the plane in focus where focdist is not more than 0 or beyond
-/// farthest_focus_marker, everything where the lens cannot be drawn. Not synchronised. The border is computed anew only
-/// when the lens changes.
+/// What cannot be drawn has the action DELETE: the plane in focus where camera::draws_focus(focdist) is
+/// false, everything where the lens cannot be drawn. Not synchronised. The border is computed anew only when the lens
+/// changes.
 class CameraMarkers {
  public:
   /// `far` (m) is more than marker_near; markers are to vanish `lifetime` seconds after the last ones came.

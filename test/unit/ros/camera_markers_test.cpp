@@ -108,7 +108,7 @@ TEST_F(Markers, ThePlaneInFocusIsAtItsDistanceAndOnlyWhereThereIsOne) {
   for (const auto& point : focus.points) EXPECT_DOUBLE_EQ(point.z, 2.5);
 
   for (const double none : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
-                            std::numeric_limits<double>::infinity(), 2 * farthest_focus_marker}) {
+                            std::numeric_limits<double>::infinity(), 2 * camera::farthest_focus}) {
     EXPECT_EQ(actions(markers.draw(some_info(), none)), without_focus) << none;
   }
   EXPECT_EQ(actions(markers.draw(some_info(), 2.5)), all_shown);

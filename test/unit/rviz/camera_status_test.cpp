@@ -107,11 +107,11 @@ TEST_F(CameraStatusTest, FrustumMustHaveItsDepthsInOrder) {
 }
 
 TEST_F(CameraStatusTest, FocusPlaneTellsWhyItIsNotDrawn) {
-  status.focus_plane(3.5, 1000);
+  status.focus_plane(3.5);
   EXPECT_EQ(line("Focus Plane"), "Ok: 3.5 m");
   for (const double none : {0.0, -1.0, 1e9, std::nan("")}) {
     at(1001);
-    status.focus_plane(none, 1000);
+    status.focus_plane(none);
     EXPECT_THAT(line("Focus Plane"), HasSubstr("not drawn")) << none;
   }
   status.no_focus_plane();
@@ -121,13 +121,14 @@ TEST_F(CameraStatusTest, FocusPlaneTellsWhyItIsNotDrawn) {
 TEST_F(CameraStatusTest, NothingIsSaidOfWhatIsNotDrawn) {
   status.transform("gone");
   status.frustum(true, 3, 2);
-  status.focus_plane(3, 1000);
+  status.focus_plane(3);
   status.age(ros::Time(999), ros::Time(999));
   status.camera_info(good);
   EXPECT_EQ(lines.size(), 5u);
   status.nothing_drawn(true);
-  EXPECT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines.size(), 3u);
   EXPECT_NE(line("Transform"), "");
+  EXPECT_NE(line("Age"), "");
   status.nothing_drawn(false);
   EXPECT_EQ(line("Transform"), "");
   EXPECT_NE(line("Camera Info"), "");
