@@ -109,10 +109,10 @@ TEST_F(CameraStatusTest, FrustumMustHaveItsDepthsInOrder) {
 TEST_F(CameraStatusTest, FocusPlaneTellsWhyItIsNotDrawn) {
   status.focus_plane(3.5);
   EXPECT_EQ(line("Focus Plane"), "Ok: 3.5 m");
-  for (const double none : {0.0, -1.0, 1e9, std::nan("")}) {
+  for (const double beyond : {0.0, -1.0, 1e9, std::nan("")}) {
     at(1001);
-    status.focus_plane(none);
-    EXPECT_THAT(line("Focus Plane"), HasSubstr("not drawn")) << none;
+    status.focus_plane(beyond);
+    EXPECT_THAT(line("Focus Plane"), HasSubstr("not drawn")) << beyond;
   }
   status.no_focus_plane();
   EXPECT_EQ(line("Focus Plane"), "");
