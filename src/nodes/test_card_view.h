@@ -42,8 +42,8 @@ class View {
   Eigen::Isometry3d camera_T_studio_;
   camera::Lens lens_;
   camera::Raster raster_;
-  double undistorted_reach_ =
-      0;  // mm about the optical axis: what is farther is not in the image, or is beyond the fold
+  // mm about the optical axis: what is farther is not in the image, or is beyond the fold.
+  double undistorted_reach_ = 0;
 };
 
 }  // namespace trk_bridge::test_card

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "trk_bridge/ros/marker_look.h"
+
 namespace trk_bridge::ros1 {
 namespace {
 
@@ -12,51 +14,30 @@ enum Place : std::size_t { frustum, axis, focus, name, count };
 
 struct Look {
   const char* name_space;
-  int type;
-  float red, green, blue, alpha;
-  double size;  ///< m: a line's width, a letter's height, 1 for triangles
+  MarkerLook marker;
 };
 
-constexpr Look looks[] = {{"/frustum", Marker::LINE_LIST, 1.0F, 0.667F, 0.0F, 1.0F, 0.01},
-                          {"/axis", Marker::LINE_LIST, 1.0F, 0.25F, 0.25F, 1.0F, 0.01},
-                          {"/focus", Marker::TRIANGLE_LIST, 0.25F, 0.75F, 1.0F, 0.3F, 1.0},
-                          {"/name", Marker::TEXT_VIEW_FACING, 1.0F, 1.0F, 1.0F, 1.0F, 0.15}};
+constexpr Look looks[] = {{"/frustum", {Marker::LINE_LIST, 1.0F, 0.667F, 0.0F, 1.0F, 0.01}},
+                          {"/axis", {Marker::LINE_LIST, 1.0F, 0.25F, 0.25F, 1.0F, 0.01}},
+                          {"/focus", {Marker::TRIANGLE_LIST, 0.25F, 0.75F, 1.0F, 0.3F, 1.0}},
+                          {"/name", {Marker::TEXT_VIEW_FACING, 1.0F, 1.0F, 1.0F, 1.0F, 0.15}}};
 constexpr double name_above_the_camera = 0.25;  // m
-
-Marker make_marker(const Look& look, const std::string& camera, const std::string& frame, double lifetime) {
-  Marker marker;
-  marker.header.frame_id = frame;
-  marker.ns = camera + look.name_space;
-  marker.type = look.type;
-  marker.action = Marker::DELETE;
-  marker.pose.orientation.w = 1;
-  marker.scale.x = marker.scale.y = marker.scale.z = look.size;
-  marker.color.r = look.red;
-  marker.color.g = look.green;
-  marker.color.b = look.blue;
-  marker.color.a = look.alpha;
-  marker.lifetime.fromSec(lifetime);
-  return marker;
-}
-
-geometry_msgs::Point to_msg(const Eigen::Vector3d& place) {
-  geometry_msgs::Point point;
-  point.x = place.x();
-  point.y = place.y();
-  point.z = place.z();
-  return point;
-}
 
 void set_points(const std::vector<Eigen::Vector3d>& places, Marker& marker) {
   marker.points.clear();
-  for (const auto& place : places) marker.points.push_back(to_msg(place));
+  for (const auto& place : places) marker.points.push_back(to_point(place));
 }
 
 }  // namespace
 
 CameraMarkers::CameraMarkers(const std::string& camera, const std::string& optical_frame, double far, double lifetime)
     : far_(far) {
-  for (const Look& look : looks) markers_.markers.push_back(make_marker(look, camera, optical_frame, lifetime));
+  for (const Look& look : looks) {
+    Marker marker = make_marker(camera + look.name_space, look.marker, optical_frame);
+    marker.action = Marker::DELETE;
+    marker.lifetime.fromSec(lifetime);
+    markers_.markers.push_back(marker);
+  }
   set_points({Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ() * far}, markers_.markers[axis]);
   markers_.markers[name].text = camera;
   markers_.markers[name].pose.position.y = -name_above_the_camera;
