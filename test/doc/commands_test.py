@@ -115,6 +115,10 @@ class PageRun:
     def run(self, block):
         if block.mark is None:
             return
+        for command in block.commands() if block.is_command() else []:
+            unknown = pages.unknown_arguments(command, self._root / "launch")
+            if unknown:
+                raise session.CommandError(f"the launch file has no argument {', '.join(unknown)}: {command}")
         text = stand_ins.replace_all(block.text, self._table)
         if block.mark.kind == "file":
             (self._folder / block.mark.text).write_text(text)

@@ -16,6 +16,7 @@ Any other fence says its language, too, and `<!-- file: NAME -->` before it make
 
 import dataclasses
 import re
+import xml.etree.ElementTree
 
 COMMAND_LANGUAGES = ("sh", "bash", "shell", "console")
 
@@ -164,6 +165,17 @@ def blocks_of(text):
     reader = _Reader(text.splitlines())
     reader.read()
     return reader.blocks
+
+
+def unknown_arguments(command, launch_folder):
+    """Arguments that `command`, if it is a roslaunch of this package, gives and its launch file does not have. roslaunch
+    itself says nothing of them."""
+    launched = re.search(r"\broslaunch trk_bridge (\S+\.launch)\b(.*)", command)
+    if not launched:
+        return []
+    root = xml.etree.ElementTree.parse(launch_folder / launched[1]).getroot()
+    known = {argument.get("name") for argument in root.findall("arg")}
+    return [name for name in re.findall(r"(?:^|\s)(\w+):=", launched[2]) if name not in known]
 
 
 def has_commands(script, commands):

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """What the command test takes for a command block, and what it refuses."""
 
+import pathlib
+import tempfile
 import unittest
 
-from pages import Mark, PageError, blocks_of, has_commands
+from pages import Mark, PageError, blocks_of, has_commands, unknown_arguments
 
 
 def page(*lines):
@@ -84,6 +86,24 @@ class Blocks(unittest.TestCase):
     def test_one_command_in_the_background(self):
         with self.assertRaisesRegex(PageError, "one command at a time"):
             blocks_of(page("<!-- run: background -->", "```sh", "a", "b", "```"))
+
+
+class LaunchArguments(unittest.TestCase):
+    def unknown(self, command):
+        with tempfile.TemporaryDirectory() as folder:
+            text = '<launch><arg name="a"/><arg name="b_c" default="1"/><group><arg name="x" value="1"/></group></launch>'
+            pathlib.Path(folder, "some.launch").write_text(text)
+            return unknown_arguments(command, pathlib.Path(folder))
+
+    def test_those_that_the_file_has(self):
+        self.assertEqual(self.unknown('roslaunch trk_bridge some.launch a:=1 b_c:="x:=2"'), [])
+
+    def test_those_that_it_lacks(self):
+        self.assertEqual(self.unknown("roslaunch trk_bridge some.launch a:=1 x:=2 b:=3"), ["x", "b"])
+
+    def test_other_commands(self):
+        self.assertEqual(self.unknown("rosrun trk_bridge trk_to_ros _x:=1"), [])
+        self.assertEqual(self.unknown("roslaunch another some.launch x:=1"), [])
 
 
 class Scripts(unittest.TestCase):

@@ -9,6 +9,7 @@
 
 namespace trk_bridge::ros1 {
 
+/// What markers of one kind have in common.
 struct MarkerLook {
   int type = visualization_msgs::Marker::LINE_LIST;
   float red = 0, green = 0, blue = 0, alpha = 1;  ///< 0..1
