@@ -79,10 +79,11 @@ def stand_ins(root, build, slot):
         StandIn(r"/takes/take1\.trk\b", str(take), "a take of the reader's"),
         StandIn(r"/path/to/trk_bridge\b", shlex.quote(str(root)), "where the reader has the repository"),
         StandIn(r"(?<![\w/.])\./scripts/", shlex.quote(str(root)) + "/scripts/", "commands run in an empty folder"),
-        StandIn(r"(?<![\w/.])test/data/", shlex.quote(str(root)) + "/test/data/", "the same"),
+        StandIn(r"(?<![\w/.])test/(?=data/|rviz/)", shlex.quote(str(root)) + "/test/", "the same"),
         StandIn(r"(?<![\w/.])build/(?=devel/|doc/)", f"{build}/", "the build that the tests are of"),
         StandIn(r"(?<=--install )build\b", build, "the same"),
         StandIn(r"(?<=--build )build\b", build, "the same"),
+        StandIn(r"(?m)^roscore$", 'roscore -p "${ROS_MASTER_URI##*:}"', "a section's own master; roscore does not look"),
         # That catkin finds, configures and builds the package in a workspace is what differs from other builds.
         StandIn(r"(?m)^catkin_make$", "catkin_make trk_bridge_wire", "the whole build takes minutes"),
     ]

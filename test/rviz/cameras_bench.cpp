@@ -51,9 +51,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string configuration = argv[1];
-  const int most = argc > 2 ? std::atoi(argv[2]) : 16;
+  const int cameras = argc > 2 ? std::atoi(argv[2]) : 16;
   const double rate = argc > 3 ? std::atof(argv[3]) : 120;
-  if (most < 1 || !(rate > 0)) {
+  if (cameras < 1 || !(rate > 0)) {
     std::fprintf(stderr, "%s: CAMERAS and RATE must be more than 0\n", argv[0]);
     return 2;
   }
@@ -61,6 +61,5 @@ int main(int argc, char** argv) {
   trk_bridge::test::RvizWindow window(application, configuration);
   std::printf("%8s %12s %10s\n", "cameras", "samples/s", "frames/s");
   trk_bridge::test::measure(window, 0, rate);
-  for (int cameras = 1; cameras < most; cameras *= 4) trk_bridge::test::measure(window, cameras, rate);
-  trk_bridge::test::measure(window, most, rate);
+  trk_bridge::test::measure(window, cameras, rate);
 }
