@@ -53,6 +53,16 @@ set(TRK_BRIDGE_LIB_DIR ${CATKIN_PACKAGE_LIB_DESTINATION})
 set(TRK_BRIDGE_BIN_DIR ${CATKIN_GLOBAL_BIN_DESTINATION})
 # Where rosrun looks; catkin_package() puts the programs of the devel space there, too.
 set(TRK_BRIDGE_TOOL_DIR ${CATKIN_PACKAGE_BIN_DESTINATION})
+# rosrun leaves out whatever is in a package's folder build/, so that programs built there need another way to be found.
+string(FIND "${CATKIN_DEVEL_PREFIX}/" "${PROJECT_SOURCE_DIR}/build/" in_own_build_folder)
+if(in_own_build_folder EQUAL 0)
+  file(MAKE_DIRECTORY "${CATKIN_DEVEL_PREFIX}/${TRK_BRIDGE_TOOL_DIR}")
+  file(CREATE_LINK "${CATKIN_DEVEL_PREFIX}/${TRK_BRIDGE_TOOL_DIR}" "${PROJECT_SOURCE_DIR}/.rosrun"
+    RESULT linked SYMBOLIC)
+  if(NOT linked EQUAL 0)
+    message(WARNING "rosrun will not find the programs of this build: ${PROJECT_SOURCE_DIR}/.rosrun: ${linked}")
+  endif()
+endif()
 set(TRK_BRIDGE_INCLUDE_DIR ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 set(TRK_BRIDGE_SHARE_DIR ${CATKIN_PACKAGE_SHARE_DESTINATION})
 

@@ -9,6 +9,7 @@ doc/images used.
 
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import urllib.parse
@@ -103,7 +104,9 @@ class Pages:
 
 
 def untracked(pages):
-    """Targets that git does not know, which a clone would not have; none where this is no clone."""
+    """Targets that git does not know, which a clone would not have; none where this is no clone, or no git is at hand."""
+    if shutil.which("git") is None:
+        return []
     listed = subprocess.run(["git", "-C", str(pages.root), "ls-files", "-z"], capture_output=True, check=False)
     if listed.returncode != 0:
         return []
