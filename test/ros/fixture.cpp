@@ -61,7 +61,10 @@ TransformRecorder::TransformRecorder(const std::string& topic, std::string child
       });
 }
 
-DiagnosticsRecorder::DiagnosticsRecorder() {
+DiagnosticsRecorder::DiagnosticsRecorder() { subscribe(); }
+
+void DiagnosticsRecorder::subscribe() {
+  subscriber_.shutdown();
   subscriber_ = ::ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>(
       "/diagnostics", 1000, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
         for (const auto& status : message->status) newest_[status.name] = status;
@@ -123,7 +126,13 @@ void NodeTest::start() {
     const auto* status = diagnostics.find(status_name(told_of));
     return status != nullptr && !status->values.empty();
   };
-  if (eventually(told)) return ::testing::AssertionSuccess();
+  // The master's news of nodes that come and go may overtake one another, and a subscriber that heard the older one
+  // last stays without the new node.
+  constexpr int attempts = 4;
+  for (int i = 0; i < attempts; ++i) {
+    if (eventually(told, deadline / 2)) return ::testing::AssertionSuccess();
+    diagnostics.subscribe();
+  }
   node->signal(SIGKILL);
   return ::testing::AssertionFailure() << "the node did not start: " << node->rest_of_err();
 }

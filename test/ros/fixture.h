@@ -62,6 +62,8 @@ class TransformRecorder {
 class DiagnosticsRecorder {
  public:
   DiagnosticsRecorder();
+  /// Anew; what was received is kept.
+  void subscribe();
   const diagnostic_msgs::DiagnosticStatus* find(const std::string& name) const;
   /// "" when there is no such status or key.
   std::string value(const std::string& name, const std::string& key) const;
