@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "trk_bridge/camera/calibration.h"
-#include "trk_bridge/camera/figure.h"
+#include "camera/figure.h"
 #include "trk_bridge/camera/image.h"
 #include "trk_bridge/wire/format.h"
 

@@ -32,7 +32,7 @@ generate_messages(DEPENDENCIES std_msgs)
 
 catkin_package(
   INCLUDE_DIRS include
-  LIBRARIES trk trk_bridge_camera trk_bridge_presets trk_bridge_ros trk_bridge_transport trk_bridge_wire
+  LIBRARIES trk trk_bridge_camera trk_bridge_endpoints trk_bridge_ros trk_bridge_transport trk_bridge_wire
   CATKIN_DEPENDS
     diagnostic_msgs
     diagnostic_updater

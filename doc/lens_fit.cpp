@@ -11,7 +11,7 @@
 
 #include <Eigen/QR>
 
-#include "radial_fit.h"
+#include "camera/radial_fit.h"
 #include "trk_bridge/camera/calibration.h"
 #include "trk_bridge/camera/image.h"
 

@@ -9,19 +9,19 @@
 #include <unistd.h>
 
 #include "handles.h"
-#include "trk_bridge/c_api/records.h"
+#include "records.h"
 #include "trk_bridge/transport/source.h"
-#include "trk_bridge/transport/take_file.h"
+#include "file/take_file.h"
 
 namespace trk_bridge::c_api {
 namespace {
 
 struct Playback {
-  transport::Take take;
+  file::Take take;
   std::size_t next = 0;
 };
 
-using Recording = std::unique_ptr<transport::TakeWriter>;
+using Recording = std::unique_ptr<file::TakeWriter>;
 
 bool can_be_read(const char* file_name) noexcept {
   struct stat state {};
@@ -51,11 +51,11 @@ trkError trkFileOpenRead(const char* fileName, char* timeCode, trkCameraConstant
     if (!c_api::can_be_read(fileName)) return trkFailed;
     Playback playback;
     try {
-      playback.take = transport::read_take(fileName);
+      playback.take = file::read_take(fileName);
     } catch (const transport::TransportError&) {
       return trkInvalidVersion;
     }
-    const std::string code = transport::to_string(playback.take.time_code);
+    const std::string code = base::to_string(playback.take.time_code);
     if (code.size() >= trkTimeCodeSize) return trkInvalidVersion;
     const trkCameraConstants read = c_api::to_c(playback.take.constants);
     *handle = handles<Playback>().open(std::move(playback));
@@ -69,9 +69,9 @@ trkError trkFileOpenWrite(const char* fileName, const char* timeCode, const trkC
                           trkHandle* handle) {
   return guarded([&] {
     if (fileName == nullptr || timeCode == nullptr || constants == nullptr || handle == nullptr) return trkFailed;
-    const auto code = transport::parse_time_code(timeCode);
+    const auto code = base::parse_time_code(timeCode);
     if (!code) return trkFailed;
-    auto recording = std::make_unique<transport::TakeWriter>(fileName, *code, true);
+    auto recording = std::make_unique<file::TakeWriter>(fileName, *code, true);
     // Without constants nothing stays of it.
     if (!recording->write(c_api::from_c(*constants))) return trkFailed;
     static std::once_flag registered;

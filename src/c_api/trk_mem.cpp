@@ -5,16 +5,16 @@
 #include <mutex>
 
 #include "handles.h"
-#include "trk_bridge/c_api/records.h"
-#include "trk_bridge/transport/shm_link.h"
+#include "records.h"
+#include "shm/shm_link.h"
 
 namespace trk_bridge::c_api {
 namespace {
 
-using transport::ShmFault;
-using transport::ShmLink;
-using transport::ShmProblem;
-using transport::ShmRead;
+using shm::ShmFault;
+using shm::ShmLink;
+using shm::ShmProblem;
+using shm::ShmRead;
 
 std::atomic<unsigned> configured{trkMemDefault};
 
@@ -26,7 +26,7 @@ ShmLink::Options options_for(int slot) {
   constexpr std::size_t document_lp64 = 528;
   ShmLink::Options options;
   options.slot = slot;
-  options.create = transport::shm_layout_of_size(document_lp64);
+  options.create = shm::shm_layout_of_size(document_lp64);
   options.recreate = (configured.load() & trkMemRecreate) != 0;
   return options;
 }
@@ -42,7 +42,7 @@ trkError read(trkHandle handle, CRecord* into) {
     return handles<Memory>().with(handle, [&](Memory& memory) {
       if (into == nullptr) return trkFailed;
       if (const auto kept = memory.keep(ShmLink::Clock::now()); !kept) {
-        return transport::is_absence(kept.error().problem) ? trkUnavailable : error_of(kept.error());
+        return shm::is_absence(kept.error().problem) ? trkUnavailable : error_of(kept.error());
       }
       Record record;
       wire::Fault fault{};
@@ -89,7 +89,7 @@ trkError trkMemConfigure(unsigned flags) {
 
 trkError trkMemOpen(int slot, trkHandle* handle) {
   return guarded([&] {
-    if (handle == nullptr || slot < 0 || slot >= transport::shm_slots) return trkFailed;
+    if (handle == nullptr || slot < 0 || slot >= shm::shm_slots) return trkFailed;
     Memory memory(c_api::options_for(slot));
     if (const auto open = memory.keep_for_writing(Memory::Clock::now()); !open) return c_api::error_of(open.error());
     static std::once_flag registered;

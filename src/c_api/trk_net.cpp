@@ -7,9 +7,8 @@
 
 #include "handles.h"
 #include "params_ring.h"
-#include "trk_bridge/c_api/records.h"
-#include "trk_bridge/transport/sink.h"
-#include "trk_bridge/transport/source.h"
+#include "records.h"
+#include "trk/udp.h"
 
 namespace trk_bridge::c_api {
 namespace {
@@ -119,9 +118,9 @@ using c_api::Sender;
 trkError trkNetOpenRead(int localPort, trkHandle* handle) {
   return guarded([&] {
     if (handle == nullptr || !c_api::is_port(localPort)) return trkFailed;
-    transport::UdpEndpoint endpoint;
-    endpoint.port = static_cast<std::uint16_t>(localPort);
-    *handle = handles<Receiver>().open(transport::open_source(endpoint));
+    trk::UdpSourceSettings settings;
+    settings.port = static_cast<std::uint16_t>(localPort);
+    *handle = handles<Receiver>().open(trk::open_udp_source(settings));
     return trkOK;
   });
 }
@@ -131,13 +130,12 @@ trkError trkNetOpenWrite(const char* remoteHost, int remotePort, int binary, trk
     if (remoteHost == nullptr || *remoteHost == '\0' || handle == nullptr || !c_api::is_port(remotePort)) {
       return trkFailed;
     }
-    transport::UdpEndpoint endpoint;
-    endpoint.host = remoteHost;
-    endpoint.port = static_cast<std::uint16_t>(remotePort);
-    endpoint.binary = binary != 0;
-    endpoint.resend_equal = true;
-    endpoint.layout.generation = wire::Generation::document;
-    *handle = handles<Sender>().open(transport::open_sink(endpoint));
+    trk::UdpSinkSettings settings;
+    settings.host = remoteHost;
+    settings.port = static_cast<std::uint16_t>(remotePort);
+    settings.binary = binary != 0;
+    settings.layout.generation = wire::Generation::document;
+    *handle = handles<Sender>().open(trk::open_udp_sink(settings));
     return trkOK;
   });
 }

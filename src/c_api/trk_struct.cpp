@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "handles.h"
-#include "trk_bridge/c_api/records.h"
+#include "records.h"
 #include "trk_bridge/wire/codec.h"
 
 namespace trk_bridge::c_api {

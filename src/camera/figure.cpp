@@ -1,4 +1,4 @@
-#include "trk_bridge/camera/figure.h"
+#include "figure.h"
 
 #include <algorithm>
 #include <cmath>

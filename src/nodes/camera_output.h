@@ -9,11 +9,11 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "finding_log.h"
-#include "trk_bridge/ros/camera_markers.h"
-#include "trk_bridge/ros/camera_pipeline.h"
-#include "trk_bridge/ros/diagnostics.h"
-#include "trk_bridge/ros/trk_to_ros_parameters.h"
-#include "trk_bridge/transport/snapshot.h"
+#include "ros/camera_markers.h"
+#include "ros/camera_pipeline.h"
+#include "ros/diagnostics.h"
+#include "ros/trk_to_ros_parameters.h"
+#include "trk_bridge/base/snapshot.h"
 
 namespace trk_bridge::nodes {
 
@@ -43,8 +43,8 @@ class CameraOutput {
   double field_rate_;
   ::ros::Publisher params_, constants_, camera_info_, marker_topic_;
   tf2_ros::TransformBroadcaster transforms_;
-  transport::Snapshot<trk_bridge::ros1::CameraStatistics> statistics_;
-  transport::Snapshot<trk_bridge::ros1::MarkerStatistics> marker_statistics_;
+  base::Snapshot<trk_bridge::ros1::CameraStatistics> statistics_;
+  base::Snapshot<trk_bridge::ros1::MarkerStatistics> marker_statistics_;
   trk_bridge::ros1::CameraReport last_report_;
   FindingLog log_;
 };

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trk_bridge/ros/finding.h"
+#include "ros/finding.h"
 
 namespace trk_bridge::nodes {
 

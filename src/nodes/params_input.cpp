@@ -1,6 +1,6 @@
 #include "params_input.h"
 
-#include "steady_time.h"
+#include "base/clock.h"
 
 namespace trk_bridge::nodes {
 
@@ -11,7 +11,7 @@ ParamsInput::ParamsInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTr
       converter_(parameters),
       log_(parameters.name) {
   statistics_.store(converter_.statistics());
-  last_report_.time = steady_now();
+  last_report_.time = base::steady_now();
   const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
   const auto no_delay = ::ros::TransportHints().tcpNoDelay();
   constants_ = node.subscribe<trk_bridge::CameraConstants>(
@@ -28,13 +28,13 @@ void ParamsInput::take(const trk_bridge::CameraConstants& message) {
 }
 
 void ParamsInput::take(const trk_bridge::CameraParams& message) {
-  const auto outgoing = converter_.take(message, steady_now());
+  const auto outgoing = converter_.take(message, base::steady_now());
   if (outgoing.params) write_(outgoing);
   statistics_.store(converter_.statistics());
 }
 
 void ParamsInput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  trk_bridge::ros1::ParamsReport report{statistics_.load(), params_.getTopic(), steady_now()};
+  trk_bridge::ros1::ParamsReport report{statistics_.load(), params_.getTopic(), base::steady_now()};
   const auto found = trk_bridge::ros1::findings(report, last_report_);
   trk_bridge::ros1::fill(status, found, report, last_report_, form_);
   log_.tell(found);

@@ -7,9 +7,9 @@
 #include <trk_bridge/CameraParams.h>
 
 #include "finding_log.h"
-#include "trk_bridge/ros/outgoing_diagnostics.h"
-#include "trk_bridge/ros/params_to_trk.h"
-#include "trk_bridge/transport/snapshot.h"
+#include "ros/outgoing_diagnostics.h"
+#include "ros/params_to_trk.h"
+#include "trk_bridge/base/snapshot.h"
 #include "trk_input.h"
 
 namespace trk_bridge::nodes {
@@ -29,7 +29,7 @@ class ParamsInput : public TrkInput {
   SetWriter write_;
   const trk_bridge::ros1::OutgoingForm form_;
   trk_bridge::ros1::ParamsToTrk converter_;
-  transport::Snapshot<trk_bridge::ros1::ParamsToTrkStatistics> statistics_;
+  base::Snapshot<trk_bridge::ros1::ParamsToTrkStatistics> statistics_;
   trk_bridge::ros1::ParamsReport last_report_;
   FindingLog log_;
   ::ros::Subscriber constants_, params_;

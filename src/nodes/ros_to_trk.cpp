@@ -2,7 +2,7 @@
 
 #include "node_parameters.h"
 #include "params_input.h"
-#include "steady_time.h"
+#include "base/clock.h"
 #include "tf_input.h"
 
 namespace trk_bridge::nodes {
@@ -29,7 +29,7 @@ RosToTrk::RosToTrk(::ros::NodeHandle node, ::ros::NodeHandle private_node, const
 }
 
 void RosToTrk::write(const trk_bridge::ros1::Outgoing& outgoing) {
-  const auto now = steady_now();
+  const auto now = base::steady_now();
   for (const auto& sink : sinks_) sink->write(outgoing, now);
 }
 

@@ -2,13 +2,15 @@
 
 #include <ros/console.h>
 
-#include "steady_time.h"
+#include "trk_bridge/endpoints/endpoints.h"
+
+#include "base/clock.h"
 
 namespace trk_bridge::nodes {
 
 SinkOutput::SinkOutput(const std::string& url)
-    : url_(url), sink_(transport::open_sink(url)), name_(sink_->name()), log_(name_) {
-  last_report_.time = steady_now();
+    : url_(url), sink_(endpoints::open_sink(url)), name_(sink_->name()), log_(name_) {
+  last_report_.time = base::steady_now();
 }
 
 SinkOutput::~SinkOutput() {
@@ -36,7 +38,7 @@ void SinkOutput::write(const trk_bridge::ros1::Outgoing& outgoing, std::int64_t 
 }
 
 void SinkOutput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  trk_bridge::ros1::SinkReport report{name_, published_.load(), steady_now()};
+  trk_bridge::ros1::SinkReport report{name_, published_.load(), base::steady_now()};
   const auto found = trk_bridge::ros1::findings(report, last_report_);
   trk_bridge::ros1::fill(status, found, report, last_report_);
   log_.tell(found);

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "finding_log.h"
-#include "trk_bridge/ros/outgoing.h"
-#include "trk_bridge/ros/outgoing_diagnostics.h"
+#include "ros/outgoing.h"
+#include "ros/outgoing_diagnostics.h"
 #include "trk_bridge/transport/sink.h"
-#include "trk_bridge/transport/snapshot.h"
+#include "trk_bridge/base/snapshot.h"
 
 namespace trk_bridge::nodes {
 
@@ -38,7 +38,7 @@ class SinkOutput {
   std::string name_;
   std::optional<wire::CameraConstants> pending_;
   trk_bridge::ros1::SinkState state_;
-  transport::Snapshot<trk_bridge::ros1::SinkState> published_;
+  base::Snapshot<trk_bridge::ros1::SinkState> published_;
   trk_bridge::ros1::SinkReport last_report_;
   FindingLog log_;
 };

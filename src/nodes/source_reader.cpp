@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "steady_time.h"
+#include "base/clock.h"
 
 namespace trk_bridge::nodes {
 
@@ -24,7 +24,7 @@ trk_bridge::ros1::CameraReport SourceReader::report() const {
   report.source_name = source_->name();
   report.source = source_->statistics();
   report.reader = published_.load();
-  report.time = steady_now();
+  report.time = base::steady_now();
   const std::lock_guard<std::mutex> lock(failure_mutex_);
   if (!failure_.empty()) {
     report.source.state = transport::SourceState::failed;
@@ -65,7 +65,7 @@ void SourceReader::read() {
 }
 
 void SourceReader::dispatch(const transport::Sample& sample) {
-  const std::int64_t now = steady_now();
+  const std::int64_t now = base::steady_now();
   bool wanted = false;
   for (auto* camera : cameras_) {
     if (!camera->wants(sample.record)) continue;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "camera_output.h"
-#include "trk_bridge/ros/diagnostics.h"
-#include "trk_bridge/transport/snapshot.h"
+#include "ros/diagnostics.h"
+#include "trk_bridge/base/snapshot.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::nodes {
@@ -38,7 +38,7 @@ class SourceReader {
   std::unique_ptr<transport::Source> source_;
   std::vector<CameraOutput*> cameras_;
   trk_bridge::ros1::ReaderStatistics statistics_;
-  transport::Snapshot<trk_bridge::ros1::ReaderStatistics> published_;
+  base::Snapshot<trk_bridge::ros1::ReaderStatistics> published_;
   mutable std::mutex failure_mutex_;
   std::string failure_;  // of the thread itself
   std::thread thread_;

@@ -1,6 +1,6 @@
 #include "tf_input.h"
 
-#include "steady_time.h"
+#include "base/clock.h"
 #include "trk_bridge/ros/messages.h"
 
 namespace trk_bridge::nodes {
@@ -21,7 +21,7 @@ TfInput::TfInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParamet
       listener_(transforms_, node, /*spin_thread=*/true, no_delay()),
       converter_(parameters),
       log_(parameters.name) {
-  last_report_.time = steady_now();
+  last_report_.time = base::steady_now();
   const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
   camera_info_ = node.subscribe<sensor_msgs::CameraInfo>(
       "camera_info", queue, [this](const sensor_msgs::CameraInfoConstPtr& message) { take(*message); },
@@ -49,7 +49,7 @@ TfInput::~TfInput() {
 void TfInput::take(const sensor_msgs::CameraInfo& message) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    converter_.take(message, steady_now());
+    converter_.take(message, base::steady_now());
   }
   changed_.notify_all();
 }
@@ -96,7 +96,7 @@ bool TfInput::look() {
     // tf and camera_info of one moment come on connections of their own.
     changed_.wait_for(lock, period_ / 4, [&] { return stopping_ || !converter_.expects_lens(stamp); });
     if (stopping_) return true;
-    outgoing = converter_.make(*pose, steady_now());
+    outgoing = converter_.make(*pose, base::steady_now());
   }
   if (!outgoing.params) return true;
   write_(outgoing);
@@ -115,7 +115,7 @@ void TfInput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
     report.last_pose = last_pose_;
   }
   report.info_topic = camera_info_.getTopic();
-  report.time = steady_now();
+  report.time = base::steady_now();
   const auto found = trk_bridge::ros1::findings(report, last_report_, parameters_.rate);
   trk_bridge::ros1::fill(status, found, report, last_report_, form_);
   log_.tell(found);

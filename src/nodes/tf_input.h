@@ -16,8 +16,8 @@
 #include <tl/expected.hpp>
 
 #include "finding_log.h"
-#include "trk_bridge/ros/outgoing_diagnostics.h"
-#include "trk_bridge/ros/tf_to_trk.h"
+#include "ros/outgoing_diagnostics.h"
+#include "ros/tf_to_trk.h"
 #include "trk_input.h"
 
 namespace trk_bridge::nodes {

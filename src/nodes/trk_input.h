@@ -5,7 +5,7 @@
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
-#include "trk_bridge/ros/outgoing.h"
+#include "ros/outgoing.h"
 
 namespace trk_bridge::nodes {
 

@@ -5,9 +5,10 @@
 #include <map>
 
 #include "node_parameters.h"
-#include "trk_bridge/ros/camera_markers.h"
+#include "trk_bridge/endpoints/endpoints.h"
+#include "ros/camera_markers.h"
 #include "trk_bridge/ros/frames.h"
-#include "trk_bridge/ros/trk_to_ros_parameters.h"
+#include "ros/trk_to_ros_parameters.h"
 
 namespace trk_bridge::nodes {
 namespace {
@@ -43,7 +44,7 @@ void TrkToRos::open(const trk_bridge::ros1::TrkToRosParameters& parameters, cons
     by_source[camera.source].push_back(cameras_.back().get());
   }
   for (const auto& [url, cameras] : by_source) {
-    readers_.push_back(std::make_unique<SourceReader>(transport::open_source(url, parameters.field_rate), cameras));
+    readers_.push_back(std::make_unique<SourceReader>(endpoints::open_source(url, parameters.field_rate), cameras));
     for (auto* camera : cameras) {
       diagnostics_.add(camera->parameters().name,
                        [camera, reader = readers_.back().get()](diagnostic_updater::DiagnosticStatusWrapper& status) {

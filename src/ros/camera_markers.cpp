@@ -1,8 +1,8 @@
-#include "trk_bridge/ros/camera_markers.h"
+#include "camera_markers.h"
 
 #include <vector>
 
-#include "trk_bridge/ros/marker_look.h"
+#include "marker_look.h"
 
 namespace trk_bridge::ros1 {
 namespace {

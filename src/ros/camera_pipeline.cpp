@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/camera_pipeline.h"
+#include "camera_pipeline.h"
 
 #include <cmath>
 #include <cstring>
@@ -92,7 +92,7 @@ PipelineOutput CameraPipeline::take(const wire::CameraParams& params, const tran
   statistics_.last_format = params.format;
   const auto order = sequence_.judge(params.counter);
   statistics_.sequence = sequence_.counts();
-  if (!transport::is_news(order)) return {};
+  if (!base::is_new(order)) return {};
   statistics_.last_news = now;
   statistics_.sender = sample.sender;
 

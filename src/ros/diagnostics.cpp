@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/diagnostics.h"
+#include "diagnostics.h"
 
 #include "diagnostic_text.h"
 #include "trk_bridge/wire/format.h"
@@ -22,7 +22,7 @@ std::string ids_text(const ReaderStatistics& reader) {
 }
 
 std::string fault_text(const ReaderStatistics& reader) {
-  return reader.has_fault ? wire::describe(reader.last_fault) : std::string("none");
+  return reader.has_fault ? describe(reader.last_fault) : std::string("none");
 }
 
 const char* constants_text(ConstantsOrigin origin) {

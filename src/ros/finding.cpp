@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/finding.h"
+#include "finding.h"
 
 #include <algorithm>
 #include <cstdio>

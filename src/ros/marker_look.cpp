@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/marker_look.h"
+#include "marker_look.h"
 
 namespace trk_bridge::ros1 {
 

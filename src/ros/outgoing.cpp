@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/outgoing.h"
+#include "outgoing.h"
 
 namespace trk_bridge::ros1 {
 

@@ -1,9 +1,9 @@
-#include "trk_bridge/ros/parameter_reader.h"
+#include "parameter_reader.h"
 
 #include <algorithm>
 #include <sstream>
 
-#include "trk_bridge/wire/nearest.h"
+#include "base/nearest.h"
 
 namespace trk_bridge::ros1 {
 namespace {
@@ -128,7 +128,7 @@ void ParameterReader::refuse_unknown() {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     std::sort(known_.begin(), known_.end());
     faults_.push_back(path_ + key + " = " + shown(tree_[key]) + ": no such parameter, nearest is " +
-                      wire::nearest(key, known_) + "; known are " + joined(known_, ", "));
+                      base::nearest(key, known_) + "; known are " + joined(known_, ", "));
   }
 }
 

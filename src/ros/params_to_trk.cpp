@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/params_to_trk.h"
+#include "params_to_trk.h"
 
 #include "trk_bridge/ros/messages.h"
 

@@ -1,9 +1,9 @@
-#include "trk_bridge/ros/ros_to_trk_parameters.h"
+#include "ros_to_trk_parameters.h"
 
 #include <utility>
 
 #include "shared_parameters.h"
-#include "trk_bridge/ros/parameter_reader.h"
+#include "parameter_reader.h"
 
 namespace trk_bridge::ros1 {
 namespace {

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "faults.h"
-#include "trk_bridge/presets/presets.h"
-#include "trk_bridge/ros/ros_to_trk_parameters.h"
-#include "trk_bridge/transport/endpoint.h"
+#include "endpoints/presets.h"
+#include "ros_to_trk_parameters.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {
@@ -17,7 +17,7 @@ void check_sinks(const std::vector<std::string>& sinks, Faults& faults) {
     faults.add("sinks", "[]", "must be given: endpoint URLs such as udp://host:7000, shm:7 or file:take.trk");
   }
   for (auto sink = sinks.begin(); sink != sinks.end(); ++sink) {
-    if (const auto endpoint = transport::parse_endpoint(*sink, transport::Direction::write); !endpoint) {
+    if (const auto endpoint = endpoints::parse_sink(*sink); !endpoint) {
       faults.add("sinks", quoted(*sink), endpoint.error());
     } else if (std::find(sinks.begin(), sink, *sink) != sink) {
       faults.add("sinks", quoted(*sink), "is given twice");
@@ -31,7 +31,7 @@ void check_format(const RosToTrkParameters& parameters, Faults& faults) {
     return;
   }
   if (parameters.preset) {
-    if (const auto preset = presets::find_preset(*parameters.preset); !preset) {
+    if (const auto preset = endpoints::find_preset(*parameters.preset); !preset) {
       faults.add("preset", quoted(*parameters.preset), preset.error());
     }
     return;
@@ -94,7 +94,7 @@ OutgoingForm form_of(const RosToTrkParameters& parameters) {
   OutgoingForm form;
   form.id = parameters.id;
   if (parameters.preset) {
-    const auto preset = presets::find_preset(*parameters.preset).value();
+    const auto preset = endpoints::find_preset(*parameters.preset).value();
     form.format = preset.format;
     form.sends_id = preset.sends_id;
   } else {

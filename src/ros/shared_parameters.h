@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "trk_bridge/ros/parameter_reader.h"
+#include "parameter_reader.h"
 #include "trk_bridge/wire/record.h"
 
 namespace trk_bridge::ros1 {

@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/stamper.h"
+#include "stamper.h"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/tf_to_trk.h"
+#include "tf_to_trk.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include <set>
 
 #include "faults.h"
-#include "trk_bridge/ros/camera_markers.h"
-#include "trk_bridge/ros/trk_to_ros_parameters.h"
-#include "trk_bridge/transport/endpoint.h"
+#include "camera_markers.h"
+#include "trk_to_ros_parameters.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {
@@ -44,7 +44,7 @@ void check_camera(const CameraParameters& camera, Faults& faults) {
   check_name(camera.name, faults);
   if (camera.source.empty()) {
     faults.add("source", "''", "must be given: an endpoint URL such as udp://:7000, shm:7 or file:take.trk");
-  } else if (const auto endpoint = transport::parse_endpoint(camera.source, transport::Direction::read); !endpoint) {
+  } else if (const auto endpoint = endpoints::parse_source(camera.source); !endpoint) {
     faults.add("source", quoted(camera.source), endpoint.error());
   }
   check_frames(camera, faults);
@@ -58,12 +58,8 @@ void check_camera(const CameraParameters& camera, Faults& faults) {
 
 /// Whether both name one UDP port that only one of them could bind.
 bool same_port(const std::string& one, const std::string& other) {
-  const auto a = transport::parse_endpoint(one, transport::Direction::read);
-  const auto b = transport::parse_endpoint(other, transport::Direction::read);
-  if (!a || !b) return false;
-  const auto* u = std::get_if<transport::UdpEndpoint>(&*a);
-  const auto* v = std::get_if<transport::UdpEndpoint>(&*b);
-  return u != nullptr && v != nullptr && u->port == v->port && u->host == v->host;
+  const auto a = endpoints::parse_source(one), b = endpoints::parse_source(other);
+  return a && b && a->place == b->place && one.compare(0, 4, "udp:") == 0;
 }
 
 void check_pair(const CameraParameters& camera, const CameraParameters& before, Faults& faults) {

@@ -12,7 +12,7 @@
 #include "lines.h"
 #include "ogre_types.h"
 #include "trail.h"
-#include "trk_bridge/camera/figure.h"
+#include "camera/figure.h"
 
 namespace trk_bridge::rviz_display {
 

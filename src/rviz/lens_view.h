@@ -6,7 +6,7 @@
 
 #include <sensor_msgs/CameraInfo.h>
 
-#include "trk_bridge/camera/figure.h"
+#include "camera/figure.h"
 
 namespace trk_bridge::rviz_display {
 

@@ -2,15 +2,15 @@
 
 #include <ostream>
 
-#include "checked_output.h"
-#include "listen.h"
+#include "cli/checked_output.h"
+#include "cli/listen.h"
 #include "record_text.h"
-#include "tally.h"
+#include "cli/tally.h"
 
 namespace trk_bridge::tools {
 namespace {
 
-class Dump final : public Listener {
+class Dump final : public cli::Listener {
  public:
   Dump(const DumpOptions& options, std::ostream& out, std::ostream& err) : options_(options), out_(out), err_(err) {}
 
@@ -23,34 +23,34 @@ class Dump final : public Listener {
 
   void on_malformed(const transport::Reception& reception) override {
     err_ << "trk: malformed record from " << transport::to_string(reception.sample.sender) << ": "
-         << wire::describe(reception.fault) << '\n';
+         << describe(reception.fault) << '\n';
   }
 
-  ExitCode finish(const transport::SourceStatistics& source, Ending ending) {
-    const ExitCode written = out_.finish(err_);
+  cli::ExitCode finish(const transport::SourceStatistics& source, cli::Ending ending) {
+    const cli::ExitCode written = out_.finish(err_);
     tally_.summarise(source, err_);
-    if (written != exit_good) return written;
-    if (ending == Ending::failed) {
+    if (written != cli::exit_good) return written;
+    if (ending == cli::Ending::failed) {
       err_ << "trk: error: " << source.error << '\n';
-      return exit_failed;
+      return cli::exit_failed;
     }
-    return exit_good;
+    return cli::exit_good;
   }
 
  private:
   const DumpOptions options_;
-  CheckedOutput out_;
+  cli::CheckedOutput out_;
   std::ostream& err_;
   JsonLine json_;
-  Tally tally_;
+  cli::Tally tally_;
   std::uint64_t printed_ = 0;
 };
 
 }  // namespace
 
-ExitCode dump(transport::Source& source, const DumpOptions& options, std::ostream& out, std::ostream& err) {
+cli::ExitCode dump(transport::Source& source, const DumpOptions& options, std::ostream& out, std::ostream& err) {
   Dump dump(options, out, err);
-  const Ending ending = listen(source, dump, options.seconds);
+  const cli::Ending ending = cli::listen(source, dump, options.seconds);
   return dump.finish(source.statistics(), ending);
 }
 

@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <optional>
 
-#include "exit_code.h"
+#include "cli/exit_code.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::tools {
@@ -19,6 +19,6 @@ struct DumpOptions {
 
 /// Prints records to `out`; malformed ones, with reason and sender, and at the end the summary to `err`. That the
 /// reader of `out` went away is an ordinary end.
-ExitCode dump(transport::Source&, const DumpOptions&, std::ostream& out, std::ostream& err);
+cli::ExitCode dump(transport::Source&, const DumpOptions&, std::ostream& out, std::ostream& err);
 
 }  // namespace trk_bridge::tools

@@ -21,8 +21,7 @@ void FanOut::write(const wire::CameraConstants& constants) { write_each(constant
 void FanOut::count(std::size_t sink, const transport::SinkFault& fault) {
   const bool is_waiting = fault.reason == transport::SinkReason::no_constants;
   if (!is_waiting) is_good_ = false;
-  const int field = fault.fault.about_field ? fault.fault.field : -1;
-  if (causes_[{sink, fault.reason, fault.fault.reason, field, fault.error_number}]++ != 0) return;
+  if (causes_[{sink, fault}]++ != 0) return;
   err_ << program_ << ": " << sinks_[sink]->name() << ": " << transport::describe(fault)
        << (is_waiting ? "; they are left out until constants come\n" : " (told once)\n");
 }
@@ -47,11 +46,8 @@ void FanOut::summarise() const {
   }
   for (const auto& [cause, times] : causes_) {
     if (times == 1) continue;
-    transport::SinkFault fault{std::get<1>(cause), wire::Fault{std::get<2>(cause)}, std::get<4>(cause)};
-    fault.fault.about_field = std::get<3>(cause) >= 0;
-    if (fault.fault.about_field) fault.fault.field = static_cast<std::uint8_t>(std::get<3>(cause));
-    err_ << program_ << ": " << sinks_[std::get<0>(cause)]->name() << ": " << times
-         << " times: " << transport::describe(fault) << '\n';
+    err_ << program_ << ": " << sinks_[cause.first]->name() << ": " << times
+         << " times: " << transport::describe(cause.second) << '\n';
   }
 }
 

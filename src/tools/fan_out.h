@@ -6,7 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "trk_bridge/transport/sink.h"
@@ -30,8 +30,7 @@ class FanOut {
   void summarise() const;
 
  private:
-  // Which sink, SinkReason, wire::Reason, field, error number.
-  using Cause = std::tuple<std::size_t, transport::SinkReason, wire::Reason, int, int>;
+  using Cause = std::pair<std::size_t, transport::SinkFault>;  // which sink, and why
 
   template <typename Record>
   void write_each(const Record&);

@@ -9,14 +9,14 @@
 
 namespace trk_bridge::tools {
 
-void list_presets(const std::vector<presets::Preset>& known, std::ostream& out) {
+void list_presets(const std::vector<endpoints::Preset>& known, std::ostream& out) {
   for (const auto& preset : known) {
     out << preset.name << '\n' << "  sends   " << wire::format_to_words(preset.format);
     out << (preset.sends_id ? "" : "; never an id") << '\n' << "  quirks  " << preset.quirks << '\n';
   }
 }
 
-void list_presets_as_json(const std::vector<presets::Preset>& known, std::ostream& out) {
+void list_presets_as_json(const std::vector<endpoints::Preset>& known, std::ostream& out) {
   for (const auto& preset : known) {
     rapidjson::StringBuffer line;
     rapidjson::Writer<rapidjson::StringBuffer> writer(line);

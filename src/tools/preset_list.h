@@ -4,13 +4,13 @@
 #include <iosfwd>
 #include <vector>
 
-#include "trk_bridge/presets/presets.h"
+#include "endpoints/presets.h"
 
 namespace trk_bridge::tools {
 
 /// For a person: name, format words and what to know of the receiver.
-void list_presets(const std::vector<presets::Preset>&, std::ostream& out);
+void list_presets(const std::vector<endpoints::Preset>&, std::ostream& out);
 /// A JSON object a line: name, format, format_words, sends_id, quirks.
-void list_presets_as_json(const std::vector<presets::Preset>&, std::ostream& out);
+void list_presets_as_json(const std::vector<endpoints::Preset>&, std::ostream& out);
 
 }  // namespace trk_bridge::tools

@@ -4,24 +4,16 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <utility>
 #include <variant>
 
 #include <rapidjson/writer.h>
 
+#include "base/time_text.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::tools {
 namespace {
-
-constexpr std::int64_t billion = 1'000'000'000;
-
-/// Whole seconds, rounded down, and what is left of the nanoseconds.
-std::pair<std::int64_t, std::int64_t> split(std::int64_t nanoseconds) {
-  const std::int64_t rest = (nanoseconds % billion + billion) % billion;
-  return {(nanoseconds - rest) / billion, rest};
-}
 
 using NumberText = std::array<char, 32>;
 
@@ -89,7 +81,7 @@ class JsonRecord {
     text("type", type);
     integer("id", id);
     writer_.Key("arrival");
-    raw(seconds_text(sample.arrival));
+    raw(base::seconds_text(sample.arrival));
     text("sender", transport::to_string(sample.sender));
   }
 
@@ -135,7 +127,7 @@ class JsonRecord {
 class PlainRecord {
  public:
   explicit PlainRecord(const transport::Sample& sample)
-      : line_(iso_time(sample.arrival) + " " + transport::to_string(sample.sender)) {
+      : line_(base::iso_time(sample.arrival) + " " + transport::to_string(sample.sender)) {
     std::visit([this](const auto& record) { body(record); }, sample.record);
   }
   std::string take() { return std::move(line_); }
@@ -198,25 +190,5 @@ std::string_view JsonLine::of(const transport::Sample& sample) {
 }
 
 std::string plain_line(const transport::Sample& sample) { return PlainRecord(sample).take(); }
-
-std::string seconds_text(std::int64_t nanoseconds) {
-  const bool is_negative = nanoseconds < 0;
-  const auto size = is_negative ? -static_cast<std::uint64_t>(nanoseconds) : static_cast<std::uint64_t>(nanoseconds);
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%s%llu.%09llu", is_negative ? "-" : "",
-                static_cast<unsigned long long>(size / billion), static_cast<unsigned long long>(size % billion));
-  return text.data();
-}
-
-std::string iso_time(std::int64_t nanoseconds) {
-  const auto [seconds, rest] = split(nanoseconds);
-  const std::time_t time = seconds;
-  std::tm utc{};
-  ::gmtime_r(&time, &utc);
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%04d-%02d-%02dT%02d:%02d:%02d.%09lldZ", utc.tm_year + 1900, utc.tm_mon + 1,
-                utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec, static_cast<long long>(rest));
-  return text.data();
-}
 
 }  // namespace trk_bridge::tools

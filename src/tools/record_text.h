@@ -25,9 +25,4 @@ class JsonLine {
 /// The same for a person: time, sender, id, counter, format words, and every number with its unit.
 std::string plain_line(const transport::Sample&);
 
-/// "1700000000.123456789".
-std::string seconds_text(std::int64_t nanoseconds);
-/// "2023-11-14T22:13:20.123456789Z".
-std::string iso_time(std::int64_t nanoseconds);
-
 }  // namespace trk_bridge::tools

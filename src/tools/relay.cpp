@@ -6,15 +6,15 @@
 #include <variant>
 
 #include "fan_out.h"
-#include "listen.h"
-#include "tally.h"
+#include "cli/listen.h"
+#include "cli/tally.h"
 #include "trk_bridge/camera/camera.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::tools {
 namespace {
 
-class Relay final : public Listener {
+class Relay final : public cli::Listener {
  public:
   Relay(std::vector<std::unique_ptr<transport::Sink>> sinks, const RelayOptions& options, std::ostream& err)
       : options_(options), err_(err), sinks_(std::move(sinks), "trk", err) {}
@@ -26,12 +26,12 @@ class Relay final : public Listener {
   }
 
   void on_malformed(const transport::Reception& reception) override {
-    if (malformed_[reception.fault.reason]++ != 0) return;
+    if (malformed_[reception.fault.name()]++ != 0) return;
     err_ << "trk: malformed record from " << transport::to_string(reception.sample.sender) << ": "
-         << wire::describe(reception.fault) << " (told once)\n";
+         << describe(reception.fault) << " (told once)\n";
   }
 
-  ExitCode finish(const transport::SourceStatistics& source, Ending ending) {
+  cli::ExitCode finish(const transport::SourceStatistics& source, cli::Ending ending) {
     sinks_.close();
     tally_.summarise(source, err_);
     sinks_.summarise();
@@ -39,9 +39,9 @@ class Relay final : public Listener {
       err_ << "trk: not passed on: " << times << " records: " << camera::describe(reason) << '\n';
     }
     if (crowded_ != 0) err_ << "trk: not passed on: " << crowded_ << " constants of ids beyond " << most_ids << '\n';
-    if (ending == Ending::failed) err_ << "trk: error: " << source.error << '\n';
-    const bool is_good = sinks_.is_good() && refused_.empty() && crowded_ == 0 && ending != Ending::failed;
-    return is_good ? exit_good : exit_failed;
+    if (ending == cli::Ending::failed) err_ << "trk: error: " << source.error << '\n';
+    const bool is_good = sinks_.is_good() && refused_.empty() && crowded_ == 0 && ending != cli::Ending::failed;
+    return is_good ? cli::exit_good : cli::exit_failed;
   }
 
  private:
@@ -102,19 +102,19 @@ class Relay final : public Listener {
   const RelayOptions options_;
   std::ostream& err_;
   FanOut sinks_;
-  Tally tally_;
+  cli::Tally tally_;
   std::map<std::uint32_t, Constants> known_;
   std::map<camera::CameraReason, std::uint64_t> refused_;
-  std::map<wire::Reason, std::uint64_t> malformed_;
+  std::map<std::string_view, std::uint64_t> malformed_;
   std::uint64_t crowded_ = 0;
 };
 
 }  // namespace
 
-ExitCode relay(transport::Source& source, std::vector<std::unique_ptr<transport::Sink>> sinks,
+cli::ExitCode relay(transport::Source& source, std::vector<std::unique_ptr<transport::Sink>> sinks,
                const RelayOptions& options, std::ostream& err) {
   Relay relay(std::move(sinks), options, err);
-  const Ending ending = listen(source, relay);
+  const cli::Ending ending = cli::listen(source, relay);
   return relay.finish(source.statistics(), ending);
 }
 

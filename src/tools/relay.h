@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "exit_code.h"
+#include "cli/exit_code.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 
@@ -21,7 +21,7 @@ struct RelayOptions {
 
 /// Until the source ends, fails or is stopped; then closes the sinks. Causes of trouble are told once on `err` and
 /// counted, the summary comes at the end. exit_failed when anything was refused.
-ExitCode relay(transport::Source&, std::vector<std::unique_ptr<transport::Sink>>, const RelayOptions&,
+cli::ExitCode relay(transport::Source&, std::vector<std::unique_ptr<transport::Sink>>, const RelayOptions&,
                std::ostream& err);
 
 }  // namespace trk_bridge::tools

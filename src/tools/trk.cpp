@@ -9,22 +9,22 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
-#include "arguments.h"
+#include "cli/arguments.h"
 #include "dump.h"
-#include "exit_code.h"
-#include "monitor.h"
+#include "cli/exit_code.h"
+#include "monitor/monitor.h"
 #include "preset_list.h"
 #include "relay.h"
-#include "stop_signals.h"
-#include "trk_bridge/presets/presets.h"
-#include "trk_bridge/transport/sink.h"
-#include "trk_bridge/transport/source.h"
+#include "cli/stop_signals.h"
+#include "endpoints/presets.h"
 #ifdef TRK_BRIDGE_WITH_BAG
-#include "bag_command.h"
+#include "bag/bag_command.h"
 #endif
 
 namespace trk_bridge::tools {
 namespace {
+
+constexpr double default_field_rate = 50;  // Hz, of takes
 
 bool is_regular_file(int fd) {
   struct stat there {};
@@ -35,7 +35,7 @@ class DumpCommand {
  public:
   explicit DumpCommand(CLI::App& app)
       : command_(app.add_subcommand("dump", "Print what comes from SOURCE, a record a line")) {
-    command_->footer(endpoints_help);
+    command_->footer(cli::endpoints_help);
     command_->add_option("SOURCE", url_, "Where records come from")->required();
     command_->add_flag("--json", options_.json, "A JSON object a line");
     command_->add_option("--count", options_.count, "End after N records")->check(CLI::PositiveNumber)->type_name("N");
@@ -45,9 +45,9 @@ class DumpCommand {
   }
   bool is_asked_for() const { return command_->parsed(); }
 
-  ExitCode run() {
-    const auto source = transport::open_source(endpoint_of(url_, transport::Direction::read));
-    const StopSignals signals(source.get());
+  cli::ExitCode run() {
+    const auto source = cli::source_from(url_).open(default_field_rate);
+    const cli::StopSignals signals(source.get());
     std::cerr << "trk: reading " << source->name() << '\n';
     options_.flush_each = !is_regular_file(STDOUT_FILENO);
     return dump(*source, options_, std::cout, std::cerr);
@@ -64,7 +64,7 @@ class RelayCommand {
   explicit RelayCommand(CLI::App& app)
       : command_(app.add_subcommand("relay",
                                     "Pass on what comes from SOURCE to every SINK: record, play, convert, fan out")) {
-    command_->footer(endpoints_help);
+    command_->footer(cli::endpoints_help);
     command_->add_option("SOURCE", source_url_, "Where records come from")->required();
     command_->add_option("SINK", sink_urls_, "Where they go")->required()->expected(1, -1);
     auto* format = command_
@@ -78,24 +78,24 @@ class RelayCommand {
   }
   bool is_asked_for() const { return command_->parsed(); }
 
-  ExitCode run() {
-    if (format_words_) options_.format = format_of(*format_words_);
-    if (preset_name_) follow(preset_of(*preset_name_));
-    const auto from = endpoint_of(source_url_, transport::Direction::read);
-    std::vector<transport::Endpoint> to;
-    for (const auto& url : sink_urls_) to.push_back(endpoint_of(url, transport::Direction::write));
+  cli::ExitCode run() {
+    if (format_words_) options_.format = cli::format_from(*format_words_);
+    if (preset_name_) follow(cli::preset_from(*preset_name_));
+    const auto from = cli::source_from(source_url_);
+    std::vector<transport::SinkEndpoint> to;
+    for (const auto& url : sink_urls_) to.push_back(cli::sink_from(url));
 
-    const auto source = transport::open_source(from);
+    const auto source = from.open(default_field_rate);
     std::vector<std::unique_ptr<transport::Sink>> sinks;
-    for (const auto& endpoint : to) sinks.push_back(transport::open_sink(endpoint));
-    const StopSignals signals(source.get());
+    for (const auto& endpoint : to) sinks.push_back(endpoint.open());
+    const cli::StopSignals signals(source.get());
     std::cerr << "trk: reading " << source->name() << '\n';
     for (const auto& sink : sinks) std::cerr << "trk: writing " << sink->name() << '\n';
     return relay(*source, std::move(sinks), options_, std::cerr);
   }
 
  private:
-  void follow(const presets::Preset& preset) {
+  void follow(const endpoints::Preset& preset) {
     options_.format = preset.format;
     if (preset.sends_id) return;
     if (options_.id.value_or(0) != 0) {
@@ -119,7 +119,7 @@ class MonitorCommand {
       : command_(app.add_subcommand("monitor",
                                     "Show live what comes from SOURCE: on a terminal as a screen, which q "
                                     "ends, else a line a second for every camera")) {
-    command_->footer(endpoints_help);
+    command_->footer(cli::endpoints_help);
     command_->add_option("SOURCE", url_, "Where records come from")->required();
     command_->add_option("--seconds", options_.seconds, "End after S seconds")
         ->check(CLI::PositiveNumber)
@@ -127,18 +127,18 @@ class MonitorCommand {
   }
   bool is_asked_for() const { return command_->parsed(); }
 
-  ExitCode run() {
-    const auto source = transport::open_source(endpoint_of(url_, transport::Direction::read));
-    const StopSignals signals(source.get());
+  cli::ExitCode run() {
+    const auto source = cli::source_from(url_).open(default_field_rate);
+    const cli::StopSignals signals(source.get());
     std::cerr << "trk: reading " << source->name() << '\n';
-    if (::isatty(STDOUT_FILENO) != 0) return monitor_on_screen(*source, options_, std::cerr);
-    return monitor_in_lines(*source, options_, std::cout, std::cerr);
+    if (::isatty(STDOUT_FILENO) != 0) return monitor::monitor_on_screen(*source, options_, std::cerr);
+    return monitor::monitor_in_lines(*source, options_, std::cout, std::cerr);
   }
 
  private:
   CLI::App* command_;
   std::string url_;
-  MonitorOptions options_;
+  monitor::MonitorOptions options_;
 };
 
 class PresetsCommand {
@@ -149,11 +149,11 @@ class PresetsCommand {
   }
   bool is_asked_for() const { return command_->parsed(); }
 
-  ExitCode run() const {
-    (as_json_ ? list_presets_as_json : list_presets)(presets::presets(), std::cout);
-    if (std::cout.flush()) return exit_good;
+  cli::ExitCode run() const {
+    (as_json_ ? list_presets_as_json : list_presets)(endpoints::presets(), std::cout);
+    if (std::cout.flush()) return cli::exit_good;
     std::cerr << "trk: error: the list could not be written to standard output\n";
-    return exit_failed;
+    return cli::exit_failed;
   }
 
  private:
@@ -165,6 +165,7 @@ class PresetsCommand {
 }  // namespace trk_bridge::tools
 
 int main(int argc, char** argv) {
+  using namespace trk_bridge;
   using namespace trk_bridge::tools;
   std::ios::sync_with_stdio(false);
   CLI::App app("Shows, records, plays and converts camera tracking data.", "trk");
@@ -174,11 +175,11 @@ int main(int argc, char** argv) {
   MonitorCommand monitor_command(app);
   PresetsCommand presets_command(app);
 #ifdef TRK_BRIDGE_WITH_BAG
-  BagCommand bag_command(app);
+  bag::BagCommand bag_command(app);
 #else
   app.footer("Built without ROS: trk bag is not part of it.");
 #endif
-  return run_program(app, argc, argv, [&] {
+  return cli::run_program(app, argc, argv, [&] {
 #ifdef TRK_BRIDGE_WITH_BAG
     if (bag_command.is_asked_for()) return bag_command.run();
 #endif

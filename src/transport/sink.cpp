@@ -1,13 +1,22 @@
 #include "trk_bridge/transport/sink.h"
 
 #include <system_error>
+#include <tuple>
 
 namespace trk_bridge::transport {
+namespace {
+
+auto key(const SinkFault& fault) noexcept { return std::tie(fault.reason, fault.fault, fault.error_number); }
+
+}  // namespace
+
+bool operator==(const SinkFault& a, const SinkFault& b) noexcept { return key(a) == key(b); }
+bool operator<(const SinkFault& a, const SinkFault& b) noexcept { return key(a) < key(b); }
 
 std::string describe(const SinkFault& fault) {
   switch (fault.reason) {
     case SinkReason::not_encodable:
-      return "the record cannot be written: " + wire::describe(fault.fault);
+      return "the record cannot be written: " + describe(fault.fault);
     case SinkReason::no_constants:
       return "parameters came before the constants that a file begins with";
     case SinkReason::constants_changed:
@@ -17,11 +26,32 @@ std::string describe(const SinkFault& fault) {
     case SinkReason::system:
       return "the system refused: " + std::generic_category().message(fault.error_number);
     case SinkReason::gone:
-      return "the segment was removed; the next write makes it anew";
+      return "the segment was removed; the next write creates it again";
     case SinkReason::closed:
       return "the sink is closed";
   }
   return "unknown fault";
+}
+
+Written Sink::counted(const Written& written, std::uint64_t& good) noexcept {
+  ++(written ? good : counts_.errors);
+  published_.store(counts_);
+  return written;
+}
+
+Written Sink::write(const wire::CameraParams& params) {
+  return counted(closed_ ? tl::make_unexpected(SinkFault{SinkReason::closed}) : put(params), counts_.params);
+}
+
+Written Sink::write(const wire::CameraConstants& constants) {
+  return counted(closed_ ? tl::make_unexpected(SinkFault{SinkReason::closed}) : put(constants), counts_.constants);
+}
+
+Written Sink::close() {
+  if (closed_) return {};
+  closed_ = true;
+  std::uint64_t not_counted = 0;
+  return counted(finish(), not_counted);
 }
 
 }  // namespace trk_bridge::transport

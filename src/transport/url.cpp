@@ -28,11 +28,11 @@ tl::expected<std::string, std::string> percent_decoded(std::string_view text) {
 
 tl::expected<Url, std::string> split_url(std::string_view url) {
   const std::size_t colon = url.find(':');
-  if (colon == std::string_view::npos) {
-    return tl::make_unexpected(
-        std::string("no scheme: udp://HOST:PORT, shm:SLOT, file:PATH and memory:NAME are allowed"));
-  }
   Url parts;
+  if (colon == std::string_view::npos) {
+    parts.place = url;
+    return parts;
+  }
   parts.scheme = url.substr(0, colon);
   const std::string_view rest = url.substr(colon + 1);
   const std::size_t question = rest.find('?');
@@ -50,7 +50,10 @@ tl::expected<Url, std::string> split_url(std::string_view url) {
     if (equals == std::string_view::npos || equals == 0) {
       return tl::make_unexpected("option \"" + std::string(option) + "\": KEY=VALUE is allowed");
     }
-    UrlOption pair{std::string(option.substr(0, equals)), std::string(option.substr(equals + 1))};
+    UrlOption pair{std::string(option.substr(0, equals)), {}};
+    auto value = percent_decoded(option.substr(equals + 1));
+    if (!value) return tl::make_unexpected("option " + pair.key + " = " + value.error());
+    pair.value = *std::move(value);
     const bool twice = std::any_of(parts.options.begin(), parts.options.end(),
                                    [&pair](const UrlOption& other) { return other.key == pair.key; });
     if (twice) return tl::make_unexpected("option " + pair.key + " is given twice");

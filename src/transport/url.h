@@ -15,14 +15,15 @@ struct UrlOption {
   std::string value;
 };
 
-/// `SCHEME:PLACE[?KEY=VALUE[&KEY=VALUE…]]`; place and values with their `%XX` still in them.
+/// `SCHEME:PLACE[?KEY=VALUE[&KEY=VALUE…]]`; the place with its `%XX` still in it, since its parts are split at characters
+/// that they may stand for.
 struct Url {
   std::string scheme;
   std::string place;
   std::vector<UrlOption> options;
 };
 
-/// The error says which part is wrong; a key twice is one, too.
+/// The error says which part is wrong; a key twice is one, too. A text without a colon has no scheme.
 tl::expected<Url, std::string> split_url(std::string_view url);
 
 /// With every `%XX` replaced by its byte. The error names the text.

@@ -14,7 +14,7 @@
 #include "receiver.h"
 #include "temporary_directory.h"
 #include "trk_bridge/ros/messages.h"
-#include "trk_bridge/transport/take_file.h"
+#include "file/take_file.h"
 
 namespace trk_bridge::test {
 namespace {
@@ -194,7 +194,7 @@ TEST_F(FromParams, AFullDiskCostsNoOtherSinkAnythingAndIsOverWhenThereIsRoom) {
   ASSERT_TRUE(eventually([&] { return receiver.is_at(counter); }));
   EXPECT_EQ(receiver.params.size(), counter) << "not one is missing";
   interrupted();
-  const auto take = transport::read_take(folder / "take.trk");
+  const auto take = file::read_take(folder / "take.trk");
   EXPECT_EQ(take.params.back().counter, counter);
   EXPECT_LT(take.params.size(), counter);
 }
@@ -213,7 +213,7 @@ TEST_F(FromParams, ARemovedSegmentIsMadeAnewWithItsConstants) {
     receiver.take();
     return slot.segment() >= 0;
   }));
-  const auto source = transport::open_source(shm, 50);
+  const auto source = endpoints::open_source(shm, 50);
   transport::Reception reception;
   bool has_constants = false, has_params = false;
   ASSERT_TRUE(eventually([&] {

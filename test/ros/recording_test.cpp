@@ -5,7 +5,7 @@
 
 #include "fixture.h"
 #include "temporary_directory.h"
-#include "trk_bridge/transport/take_file.h"
+#include "file/take_file.h"
 #include "vectors.h"
 
 namespace trk_bridge::test {
@@ -53,7 +53,7 @@ TEST_F(Recording, OfARunningNodeIsTheTakeThatWasSent) {
   set("source", udp_url(port));
   set("format", "as_received");
   ASSERT_TRUE(starts());
-  const auto take = transport::read_take(data_path("field/takes/euler.trk"));
+  const auto take = file::read_take(data_path("field/takes/euler.trk"));
   const std::string bag = directory / "recorded.bag";
   Program recorder(launch("record.launch", {"camera:=" + camera, "bag:=" + bag}));
   Tracker tracker(port);
@@ -73,17 +73,17 @@ TEST_F(Recording, OfARunningNodeIsTheTakeThatWasSent) {
   recorder.rest_of_err();
   EXPECT_EQ(recorder.wait(), 0);
   ASSERT_TRUE(trk_bag(bag, directory / "back.trk", {"--field-rate", "50"}));
-  const auto back = transport::read_take(directory / "back.trk");
+  const auto back = file::read_take(directory / "back.trk");
   EXPECT_GE(back.params.size(), 20u);
   EXPECT_EQ(bits(back.constants), bits(take.constants));
   EXPECT_TRUE(is_run_of(back.params, take.params));
 }
 
 TEST_F(Recording, PlayedBackFeedsRosToTrk) {
-  const auto whole = transport::read_take(data_path("field/takes/euler.trk"));
+  const auto whole = file::read_take(data_path("field/takes/euler.trk"));
   const std::string short_take = directory / "short.trk";
   {
-    transport::TakeWriter writer(short_take, whole.time_code, /*overwrite=*/false);
+    file::TakeWriter writer(short_take, whole.time_code, /*overwrite=*/false);
     ASSERT_TRUE(writer.write(whole.constants));
     for (std::size_t i = 0; i < 200; ++i) ASSERT_TRUE(writer.write(whole.params[i]));
     ASSERT_TRUE(writer.close());
@@ -95,7 +95,7 @@ TEST_F(Recording, PlayedBackFeedsRosToTrk) {
   player.rest_of_out();
   player.rest_of_err();
   EXPECT_EQ(player.wait(), 0);
-  const auto back = transport::read_take(sent);
+  const auto back = file::read_take(sent);
   EXPECT_GE(back.params.size(), 100u);
   EXPECT_TRUE(is_run_of(back.params, whole.params));
   ::ros::param::del("/use_sim_time");

@@ -6,7 +6,7 @@
 #include "fixture.h"
 #include "free_slot.h"
 #include "temporary_directory.h"
-#include "trk_bridge/ros/trk_to_ros_parameters.h"
+#include "ros/trk_to_ros_parameters.h"
 #include "trk_bridge/transport/sink.h"
 
 namespace trk_bridge::test {
@@ -37,7 +37,7 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
   }));
 
   Tracker tracker(port);
-  auto sink = transport::open_sink(slot);
+  auto sink = endpoints::open_sink(slot);
   for (std::uint64_t counter = 1; counter <= 3; ++counter) {
     tracker.send(test::params(counter, 1));
     tracker.send(test::params(counter + 100, 2));
@@ -68,7 +68,7 @@ class FromFile : public NodeTest {
 TEST_F(FromFile, ATakeIsPlayedToItsEndAndTheNodeLivesOn) {
   const std::string path = folder / "take.trk";
   {
-    auto sink = transport::open_sink("file:" + path);
+    auto sink = endpoints::open_sink("file:" + path);
     ASSERT_TRUE(sink->write(test::constants()));
     for (std::uint64_t counter = 1; counter <= 50; ++counter) ASSERT_TRUE(sink->write(test::params(counter)));
     ASSERT_TRUE(sink->close());

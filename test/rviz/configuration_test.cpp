@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "../support/temporary_directory.h"
+#include "temporary_directory.h"
 #include "camera_display.h"
 #include "published_camera.h"
 

@@ -8,7 +8,7 @@
 #include <tl/expected.hpp>
 
 #include "trk_bridge/camera/calibration.h"
-#include "trk_bridge/camera/figure.h"
+#include "camera/figure.h"
 
 namespace trk_bridge::ros1 {
 

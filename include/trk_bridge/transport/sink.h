@@ -1,68 +1,86 @@
-// Where records go: one interface over UDP, shared memory, files and memory.
+// Where records go: one interface over datagrams, shared memory and files.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
-#include <string_view>
 
 #include <tl/expected.hpp>
 
-#include "trk_bridge/transport/endpoint.h"
-#include "trk_bridge/transport/source.h"
-#include "trk_bridge/wire/codec.h"
+#include "trk_bridge/base/snapshot.h"
+#include "trk_bridge/transport/fault.h"
+#include "trk_bridge/wire/record.h"
 
 namespace trk_bridge::transport {
 
 /// What kind of fault it is.
 enum class SinkReason : std::uint8_t {
-  not_encodable,      ///< `fault` says which field
+  not_encodable,      ///< `fault` says why
   no_constants,       ///< a file begins with constants: none were written before the first parameters
   constants_changed,  ///< a file holds one set of constants: others came, or parameters that belong to them
   other_camera,       ///< a file holds one camera: the id is not that of its constants
   system,             ///< the kernel refused: `error_number`
-  gone,               ///< the segment was removed; the sink tries to make it anew at the next write
+  gone,               ///< the segment was removed; the sink tries to create it again at the next write
   closed,             ///< close() was called before
 };
 
-/// Why a write or a close failed.
+/// Why a write or a close failed. Trivially copyable.
 struct SinkFault {
-  SinkReason reason;
-  wire::Fault fault{wire::Reason::truncated};
-  int error_number = 0;
+  SinkReason reason{};
+  Fault fault{};         ///< counts with not_encodable
+  int error_number = 0;  ///< counts with system and gone
 };
+bool operator==(const SinkFault&, const SinkFault&) noexcept;
+bool operator<(const SinkFault&, const SinkFault&) noexcept;
+/// One line for a person.
 std::string describe(const SinkFault&);
 
-/// What went out so far.
+/// What went out so far. Trivially copyable.
 struct SinkStatistics {
   std::uint64_t params = 0, constants = 0;  ///< records that went out, repeated constants counted
   std::uint64_t errors = 0;
 };
 
-/// Writes never block on a receiver and never lose what is written before or after a failed one. One thread at a time.
+/// What a write or a close gives.
+using Written = tl::expected<void, SinkFault>;
+
+/// One place that records go to. What is written before or after a failed write is not lost by it. One thread at a
+/// time, but for statistics().
+///
+/// Whether constants are new is the caller's matter (camera::Converter knows): a sink writes what it is given. Receivers
+/// of datagrams that join late would never see constants, so that datagram sinks repeat them by themselves.
 class Sink {
  public:
   virtual ~Sink() = default;
   Sink(const Sink&) = delete;
   Sink& operator=(const Sink&) = delete;
 
-  /// Sends one set of parameters, and before it the constants of the same id when their period has passed.
-  [[nodiscard]] virtual tl::expected<void, SinkFault> write(const wire::CameraParams&) = 0;
-  /// Sends constants if they differ from the last ones of that id, and remembers them for repeating.
-  [[nodiscard]] virtual tl::expected<void, SinkFault> write(const wire::CameraConstants&) = 0;
-  /// Ends orderly: what is buffered goes out, a file gets its final name. The destructor does it, too, but cannot say
-  /// how it went.
-  [[nodiscard]] virtual tl::expected<void, SinkFault> close() = 0;
+  /// Writes one set of parameters; a datagram sink sends the constants of the same id before it when their period has
+  /// passed.
+  [[nodiscard]] Written write(const wire::CameraParams&);
+  [[nodiscard]] Written write(const wire::CameraConstants&);
+  /// Ends in order: a file gets its final name. Closing again does nothing. A sink that is destroyed without it ends
+  /// likewise, but cannot report how that went.
+  [[nodiscard]] Written close();
 
-  virtual SinkStatistics statistics() const = 0;
+  /// A consistent snapshot. Any thread.
+  SinkStatistics statistics() const noexcept { return published_.load(); }
+  /// The endpoint as a person reads it: "udp to 192.0.2.7:7000", "shm slot 7", "file take.trk".
   virtual std::string name() const = 0;
 
  protected:
   Sink() = default;
-};
+  /// Counts constants that were repeated.
+  void count_constants() noexcept { ++counts_.constants; }
 
-/// The only place that makes sinks. Throws TransportError.
-std::unique_ptr<Sink> open_sink(const Endpoint&);
-std::unique_ptr<Sink> open_sink(std::string_view url);
+ private:
+  virtual Written put(const wire::CameraParams&) = 0;
+  virtual Written put(const wire::CameraConstants&) = 0;
+  virtual Written finish() = 0;
+  Written counted(const Written&, std::uint64_t& good) noexcept;
+
+  bool closed_ = false;
+  SinkStatistics counts_;
+  base::Snapshot<SinkStatistics> published_;
+};
 
 }  // namespace trk_bridge::transport

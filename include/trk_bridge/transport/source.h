@@ -1,4 +1,4 @@
-// Where records come from: one interface over UDP, shared memory, files and memory.
+// Where records come from: one interface over datagrams, shared memory and files.
 #pragma once
 
 #include <chrono>
@@ -8,9 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "trk_bridge/transport/endpoint.h"
-#include "trk_bridge/transport/sender.h"
-#include "trk_bridge/wire/codec.h"
+#include "trk_bridge/transport/fault.h"
+#include "trk_bridge/transport/sample.h"
 
 namespace trk_bridge::transport {
 
@@ -18,14 +17,6 @@ namespace trk_bridge::transport {
 class TransportError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-};
-
-/// A record with where and when it came from.
-struct Sample {
-  wire::Record record;
-  wire::WireForm form;
-  std::int64_t arrival = 0;  ///< nanoseconds since 1970 UTC: the kernel's receive time for UDP, see FileTime for files
-  Sender sender;
 };
 
 /// What one call of Source::receive met.
@@ -41,10 +32,10 @@ enum class Event : std::uint8_t {
 /// Filled by receive(); reuse one, so that nothing allocates.
 struct Reception {
   Sample sample;
-  wire::Fault fault{wire::Reason::truncated};
+  Fault fault;
 };
 
-/// How far a source has come. "Connected" is only ever said after a valid record.
+/// How far a source has come. `receiving` is only ever reached by a valid record.
 enum class SourceState : std::uint8_t {
   waiting,        ///< for a segment, or bound and nothing received
   nothing_valid,  ///< something comes, but none of it is trk
@@ -63,13 +54,13 @@ struct SourceStatistics {
   std::uint64_t kernel_drops = 0;         ///< datagrams the kernel threw away because nobody read in time
   std::uint64_t overwritten = 0;          ///< shared memory: sets written and replaced before they were seen
   std::uint64_t unknown_format_bits = 0;  ///< records with bits above wire::known_format_bits
-  std::uint64_t reattached = 0;           ///< shared memory: segments followed after the first
+  std::uint64_t reattached = 0;           ///< shared memory: segments attached to after the first
   Sender last_refused;
   std::string error;        ///< when failed: one line for a person
   std::string waiting_for;  ///< when waiting: "slot 7: no segment", "udp port 7000: bound, nothing received yet"
 };
 
-/// One place that records come from, opened by open_source().
+/// One place that records come from, opened by endpoints::open_source().
 class Source {
  public:
   virtual ~Source() = default;
@@ -92,12 +83,5 @@ class Source {
  protected:
   Source() = default;
 };
-
-/// The only place that makes sources. Throws TransportError: a port in use, an address of no interface, a file with an
-/// error in line N (`take.trk:57: field 9 is not a number`), … A shared memory slot that does not exist yet is no
-/// error. `field_rate` (Hz) counts for files whose endpoint has no `rate`.
-std::unique_ptr<Source> open_source(const Endpoint&, double field_rate = 50.0);
-/// The same from a URL; its errors are TransportErrors, too.
-std::unique_ptr<Source> open_source(std::string_view url, double field_rate = 50.0);
 
 }  // namespace trk_bridge::transport

@@ -12,7 +12,7 @@
 #include "fixture.h"
 #include "trk_bridge/ros/messages.h"
 
-namespace trk_bridge::tools {
+namespace trk_bridge::bag {
 namespace {
 
 using test::read_text;
@@ -46,7 +46,7 @@ class CutBag : public BagTest {
   }
 
   const std::string path = test::data_path("field/takes/euler.trk");
-  const transport::Take sent = transport::read_take(path);
+  const file::Take sent = file::read_take(path);
   const std::vector<std::string> all = bits_of(sent.params);
 };
 
@@ -158,4 +158,4 @@ TEST_F(CutBag, WhatIsNoBagIsRefused) {
 }
 
 }  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::bag

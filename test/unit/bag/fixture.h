@@ -12,13 +12,13 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
-#include "bag_take.h"
+#include "bag/bag_take.h"
 #include "temporary_directory.h"
-#include "trk_bridge/transport/take_file.h"
+#include "file/take_file.h"
 #include "trk_bridge/wire/codec.h"
 #include "vectors.h"
 
-namespace trk_bridge::tools {
+namespace trk_bridge::bag {
 
 /// A record's bytes, so that equal means equal bit for bit.
 template <typename RecordType>
@@ -53,9 +53,9 @@ inline wire::CameraConstants some_constants(std::uint32_t id = 0) {
 class BagTest : public ::testing::Test {
  protected:
   std::string take_of(const std::vector<wire::CameraParams>& params, const std::string& name = "made.trk",
-                      const transport::TimeCode& code = {10, 20, 30, 12, 1}) {
+                      const base::TimeCode& code = {10, 20, 30, 12, 1}) {
     const std::string path = directory / name;
-    transport::TakeWriter writer(path, code, /*overwrite=*/true);
+    file::TakeWriter writer(path, code, /*overwrite=*/true);
     EXPECT_TRUE(writer.write(some_constants(params.empty() ? 0 : params.front().id)));
     for (const auto& one : params) EXPECT_TRUE(writer.write(one));
     EXPECT_TRUE(writer.close());
@@ -72,10 +72,10 @@ class BagTest : public ::testing::Test {
     bag_of_take(take, directory / name, options, run, err);
     return directory / name;
   }
-  transport::Take to_take(const std::string& bag, BagToTakeOptions options = {}) {
+  file::Take to_take(const std::string& bag, BagToTakeOptions options = {}) {
     options.overwrite = true;
     take_of_bag(bag, directory / "back.trk", options, run, err);
-    return transport::read_take(directory / "back.trk");
+    return file::read_take(directory / "back.trk");
   }
   std::string refusal(const std::string& bag, const BagToTakeOptions& options = {}) {
     try {
@@ -90,7 +90,7 @@ class BagTest : public ::testing::Test {
 
   test::TemporaryDirectory directory;
   std::ostringstream err;
-  LongRun run{err, /*is_terminal=*/false};
+  cli::LongRun run{err, /*is_terminal=*/false};
 };
 
 /// A bag as somebody else writes it.
@@ -111,4 +111,4 @@ class SomeBag {
   rosbag::Bag bag_;
 };
 
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::bag

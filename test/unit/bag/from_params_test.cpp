@@ -9,7 +9,7 @@
 #include "fixture.h"
 #include "trk_bridge/ros/messages.h"
 
-namespace trk_bridge::tools {
+namespace trk_bridge::bag {
 namespace {
 
 using testing::HasSubstr;
@@ -162,4 +162,4 @@ TEST_F(FromParams, ParamsCanBeToldInAnotherFormat) {
 }
 
 }  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::bag

@@ -9,7 +9,7 @@
 #include "trk_bridge/camera/camera.h"
 #include "trk_bridge/ros/frames.h"
 
-namespace trk_bridge::tools {
+namespace trk_bridge::bag {
 namespace {
 
 using testing::HasSubstr;
@@ -161,7 +161,7 @@ class TakeThroughTf : public BagTest, public testing::WithParamInterface<const c
 
 TEST_P(TakeThroughTf, IsTheSameCamera) {
   const auto path = test::data_path(GetParam());
-  const auto sent = transport::read_take(path);
+  const auto sent = file::read_take(path);
   const auto bag_path = to_bag(path);
   BagToTakeOptions options;
   options.input = BagInput::tf;
@@ -186,4 +186,4 @@ INSTANTIATE_TEST_SUITE_P(FieldTakes, TakeThroughTf,
                          [](const auto& test) { return "Take" + std::to_string(test.index); });
 
 }  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::bag

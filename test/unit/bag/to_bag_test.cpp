@@ -9,7 +9,7 @@
 
 #include "fixture.h"
 
-namespace trk_bridge::tools {
+namespace trk_bridge::bag {
 namespace {
 
 using test::read_text;
@@ -29,7 +29,7 @@ class ThereAndBack : public BagTest, public testing::WithParamInterface<std::str
 
 TEST_P(ThereAndBack, IsTheSameTake) {
   const auto path = test::data_path(GetParam());
-  const auto sent = transport::read_take(path);
+  const auto sent = file::read_take(path);
   const auto back = to_take(to_bag(path));
   EXPECT_EQ(back.time_code, sent.time_code);
   EXPECT_EQ(bits(back.constants), bits(sent.constants));
@@ -54,7 +54,7 @@ TEST_F(ToBag, ConstantsThatServeAnyCameraStaySo) {
   const auto take = directory / "any.trk";
   write_text(take,
              "DMC01\n10:20:30:12:1\n720 576 10 10 0 0 6.4 4.8 6.58286 4.8\nI7 1 0.5 -2 1.5 0 0 0 7.7 0 0 0 0 0 0 9\n");
-  const auto sent = transport::read_take(take);
+  const auto sent = file::read_take(take);
   const auto back = to_take(to_bag(take));
   EXPECT_EQ(bits(back.constants), bits(sent.constants));
   EXPECT_EQ(bits_of(back.params), bits_of(sent.params));
@@ -77,7 +77,7 @@ TEST_F(ToBag, HoldsWhatTheNodePublishes) {
   TakeToBagOptions options;
   options.camera = "crane1";
   const auto path = test::data_path("field/takes/euler.trk");
-  const auto take = transport::read_take(path);
+  const auto take = file::read_take(path);
   rosbag::Bag bag(to_bag(path, options));
   rosbag::View view(bag);
   std::map<std::string, std::size_t> counts;
@@ -131,7 +131,7 @@ TEST_F(ToBag, TheDayAndTheBeginningCanBeSaid) {
   EXPECT_EQ(begin(options), ::ros::Time(1'795'305'600 + 37'230, 480'000'000));
   options.start = 1'700'000'000'123'456'789;
   EXPECT_EQ(begin(options), ::ros::Time(1'700'000'000, 123'456'789));
-  EXPECT_EQ(to_take(directory / "a.bag").time_code, transport::read_take(take).time_code);
+  EXPECT_EQ(to_take(directory / "a.bag").time_code, file::read_take(take).time_code);
 }
 
 TEST_F(ToBag, TheFieldRateNeedNotBeRepeatedOnTheWayBack) {
@@ -204,4 +204,4 @@ TEST_F(ToBag, WrongOptionsAreNamedAndNothingStays) {
 }
 
 }  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::bag

@@ -6,7 +6,7 @@
 
 #include "random_cameras.h"
 #include "trk_bridge/camera/calibration.h"
-#include "trk_bridge/camera/figure.h"
+#include "camera/figure.h"
 #include "trk_bridge/camera/image.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // What is drawn of a camera, against OpenCV's projection and the worked cases.
-#include "trk_bridge/camera/figure.h"
+#include "camera/figure.h"
 
 #include <gmock/gmock.h>
 

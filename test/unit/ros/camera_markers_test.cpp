@@ -1,5 +1,5 @@
 // What a camera looks like to a viewer of markers.
-#include "trk_bridge/ros/camera_markers.h"
+#include "ros/camera_markers.h"
 
 #include <limits>
 #include <map>

@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/camera_pipeline.h"
+#include "ros/camera_pipeline.h"
 
 #include <cmath>
 #include <limits>

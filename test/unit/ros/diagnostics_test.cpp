@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/diagnostics.h"
+#include "ros/diagnostics.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/outgoing_diagnostics.h"
+#include "ros/outgoing_diagnostics.h"
 
 #include <cerrno>
 

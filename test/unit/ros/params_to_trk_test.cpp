@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/params_to_trk.h"
+#include "ros/params_to_trk.h"
 
 #include <cmath>
 #include <limits>

@@ -1,10 +1,10 @@
-#include "trk_bridge/ros/ros_to_trk_parameters.h"
+#include "ros/ros_to_trk_parameters.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "trk_bridge/ros/parameter_reader.h"
+#include "ros/parameter_reader.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {

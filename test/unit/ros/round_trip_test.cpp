@@ -5,9 +5,9 @@
 #include "../camera/worked_cases.h"
 #include "same_camera.h"
 #include "trk_bridge/camera/image.h"
-#include "trk_bridge/ros/camera_pipeline.h"
-#include "trk_bridge/ros/params_to_trk.h"
-#include "trk_bridge/ros/tf_to_trk.h"
+#include "ros/camera_pipeline.h"
+#include "ros/params_to_trk.h"
+#include "ros/tf_to_trk.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {

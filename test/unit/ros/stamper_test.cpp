@@ -1,4 +1,4 @@
-#include "trk_bridge/ros/stamper.h"
+#include "ros/stamper.h"
 
 #include <gmock/gmock.h>
 

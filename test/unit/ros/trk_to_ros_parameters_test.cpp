@@ -1,10 +1,10 @@
-#include "trk_bridge/ros/trk_to_ros_parameters.h"
+#include "ros/trk_to_ros_parameters.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "trk_bridge/ros/parameter_reader.h"
+#include "ros/parameter_reader.h"
 
 namespace trk_bridge::ros1 {
 namespace {

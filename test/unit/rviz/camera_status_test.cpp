@@ -1,5 +1,5 @@
 // What the lines of a display say in each of its conditions.
-#include "camera_status.h"
+#include "rviz/camera_status.h"
 
 #include <cmath>
 #include <map>

@@ -1,5 +1,5 @@
 // What is received while nobody draws.
-#include "inbox.h"
+#include "rviz/inbox.h"
 
 #include <thread>
 

@@ -1,5 +1,5 @@
 // Which lens is drawn, when it is worked out anew, and why some are none.
-#include "lens_view.h"
+#include "rviz/lens_view.h"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // Which messages are kept, and which of them is drawn.
-#include "samples.h"
+#include "rviz/samples.h"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // A status is told at once when it gets another level, and seldom while only its text changes.
-#include "status_lines.h"
+#include "rviz/status_lines.h"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 // What is written beside a camera and about it.
-#include "texts.h"
+#include "rviz/texts.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // Where a camera was, as far back as is wanted.
-#include "trail.h"
+#include "rviz/trail.h"
 
 #include <cmath>
 #include <limits>

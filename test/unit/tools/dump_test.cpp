@@ -1,4 +1,4 @@
-#include "dump.h"
+#include "tools/dump.h"
 
 #include <algorithm>
 #include <chrono>
@@ -20,7 +20,7 @@ int lines(const std::string& text) { return static_cast<int>(std::count(text.beg
 
 class DumpTest : public testing::Test {
  protected:
-  ExitCode run(const DumpOptions& options = {}) { return dump(*feed.source(), options, out, err); }
+  cli::ExitCode run(const DumpOptions& options = {}) { return dump(*feed.source(), options, out, err); }
 
   test::MemoryFeed feed;
   std::ostringstream out, err;
@@ -32,7 +32,7 @@ TEST_F(DumpTest, ALineARecordAndTheSummaryByCameraAndSender) {
   feed.put(test::params(100, 8));
   feed.put(test::params(100, 8), 6000);
   feed.put(transport::Event::ended);
-  EXPECT_EQ(run(), exit_good);
+  EXPECT_EQ(run(), cli::exit_good);
   EXPECT_EQ(lines(out.str()), 9);
   EXPECT_THAT(err.str(), HasSubstr("received 9 (8 parameters, 1 constants), malformed 0"));
   EXPECT_THAT(err.str(), HasSubstr("id 7 from 127.0.0.1:5000: "));
@@ -45,7 +45,7 @@ TEST_F(DumpTest, MalformedInputIsALineOnStandardErrorOnly) {
   feed.put_malformed(wire::Reason::bad_magic);
   feed.put(test::params(1));
   feed.put(transport::Event::ended);
-  EXPECT_EQ(run(), exit_good);
+  EXPECT_EQ(run(), cli::exit_good);
   EXPECT_EQ(lines(out.str()), 1);
   EXPECT_THAT(err.str(), HasSubstr("trk: malformed record from 127.0.0.1:5000: bad magic"));
   EXPECT_THAT(err.str(), HasSubstr("malformed 1"));
@@ -56,7 +56,7 @@ TEST_F(DumpTest, CountsOnlyWhatIsPrinted) {
   for (std::uint64_t counter = 1; counter <= 5; ++counter) feed.put(test::params(counter));
   DumpOptions options;
   options.count = 3;
-  EXPECT_EQ(run(options), exit_good);
+  EXPECT_EQ(run(options), cli::exit_good);
   EXPECT_EQ(lines(out.str()), 3);
 }
 
@@ -64,14 +64,14 @@ TEST_F(DumpTest, EndsAfterItsTimeAlthoughNothingComes) {
   DumpOptions options;
   options.seconds = 0.05;
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(run(options), exit_good);
+  EXPECT_EQ(run(options), cli::exit_good);
   EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(50));
   EXPECT_THAT(err.str(), HasSubstr("received 0"));
 }
 
 TEST_F(DumpTest, AFailedSourceIsAFailure) {
   feed.put(transport::Event::failed);
-  EXPECT_EQ(run(), exit_failed);
+  EXPECT_EQ(run(), cli::exit_failed);
   EXPECT_THAT(err.str(), HasSubstr("trk: error: memory"));
 }
 
@@ -79,7 +79,7 @@ TEST_F(DumpTest, AnOutputThatCannotTakeMoreEndsIt) {
   feed.put(test::params(1));
   feed.put(test::params(2));
   out.setstate(std::ios::badbit);
-  EXPECT_EQ(run(), exit_failed);
+  EXPECT_EQ(run(), cli::exit_failed);
   EXPECT_THAT(err.str(), HasSubstr("trk: error: standard output"));
   EXPECT_THAT(err.str(), HasSubstr("received 1 "));
 }

@@ -1,4 +1,4 @@
-#include "record_text.h"
+#include "tools/record_text.h"
 
 #include <cstring>
 #include <limits>
@@ -115,12 +115,12 @@ TEST(PlainLine, TellsUnitsOfTheFormat) {
 }
 
 TEST(Times, AreExactOnBothSidesOf1970) {
-  EXPECT_EQ(seconds_text(0), "0.000000000");
-  EXPECT_EQ(seconds_text(-1), "-0.000000001");
-  EXPECT_EQ(seconds_text(-1'500'000'000), "-1.500000000");
-  EXPECT_EQ(seconds_text(std::numeric_limits<std::int64_t>::min()), "-9223372036.854775808");
-  EXPECT_EQ(iso_time(0), "1970-01-01T00:00:00.000000000Z");
-  EXPECT_EQ(iso_time(-1), "1969-12-31T23:59:59.999999999Z");
+  EXPECT_EQ(base::seconds_text(0), "0.000000000");
+  EXPECT_EQ(base::seconds_text(-1), "-0.000000001");
+  EXPECT_EQ(base::seconds_text(-1'500'000'000), "-1.500000000");
+  EXPECT_EQ(base::seconds_text(std::numeric_limits<std::int64_t>::min()), "-9223372036.854775808");
+  EXPECT_EQ(base::iso_time(0), "1970-01-01T00:00:00.000000000Z");
+  EXPECT_EQ(base::iso_time(-1), "1969-12-31T23:59:59.999999999Z");
 }
 
 }  // namespace

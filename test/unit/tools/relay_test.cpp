@@ -1,4 +1,4 @@
-#include "relay.h"
+#include "tools/relay.h"
 
 #include <cerrno>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 #include "memory_feed.h"
 #include "temporary_directory.h"
-#include "trk_bridge/transport/take_file.h"
+#include "file/take_file.h"
 #include "trk_bridge/wire/format.h"
 #include "udp.h"
 #include "vectors.h"
@@ -61,7 +61,7 @@ class Basket final : public transport::Sink {
 class RelayTest : public testing::Test {
  protected:
   void add_basket() { sinks.push_back(std::make_unique<Basket>(basket)); }
-  ExitCode run(const RelayOptions& options = {}) {
+  cli::ExitCode run(const RelayOptions& options = {}) {
     feed.put(Event::ended);
     return relay(*feed.source(), std::move(sinks), options, err);
   }
@@ -84,7 +84,7 @@ TEST_F(RelayTest, EveryWorkedCaseBecomesTheCanonicalCameraInEuler) {
   add_basket();
   RelayOptions options;
   options.format = wire::euler;
-  EXPECT_EQ(run(options), exit_good) << err.str();
+  EXPECT_EQ(run(options), cli::exit_good) << err.str();
   ASSERT_EQ(basket.records.size(), 2 * cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const auto& params = std::get<wire::CameraParams>(basket.records[2 * i + 1]);
@@ -116,7 +116,7 @@ TEST_F(RelayTest, WithoutOptionsEveryRecordPassesAsItCame) {
   sent.emplace_back(test::constants(720, 3));
   for (const auto& record : sent) feed.put(record);
   add_basket();
-  EXPECT_EQ(run(), exit_good);
+  EXPECT_EQ(run(), cli::exit_good);
   EXPECT_EQ(basket.records, sent);
   EXPECT_TRUE(basket.closed);
   EXPECT_THAT(err.str(), HasSubstr("received " + std::to_string(sent.size())));
@@ -128,7 +128,7 @@ TEST_F(RelayTest, AnotherIdReplacesTheOneThatCame) {
   add_basket();
   RelayOptions options;
   options.id = 9;
-  EXPECT_EQ(run(options), exit_good);
+  EXPECT_EQ(run(options), cli::exit_good);
   ASSERT_EQ(basket.records.size(), 2u);
   EXPECT_EQ(std::get<wire::CameraConstants>(basket.records[0]), test::constants(720, 9));
   EXPECT_EQ(std::get<wire::CameraParams>(basket.records[1]), test::params(1, 9));
@@ -149,7 +149,7 @@ TEST_F(RelayTest, ConstantsAreKeptById) {
   add_basket();
   RelayOptions options;
   options.format = wire::euler;
-  EXPECT_EQ(run(options), exit_good) << err.str();
+  EXPECT_EQ(run(options), cli::exit_good) << err.str();
   ASSERT_EQ(basket.records.size(), 4u);
   EXPECT_NEAR(std::get<wire::CameraParams>(basket.records[2]).fov, 4.4, 1e-12);
   EXPECT_NEAR(std::get<wire::CameraParams>(basket.records[3]).fov, 2.2, 1e-12);
@@ -163,7 +163,7 @@ TEST_F(RelayTest, TheFakeChipAgreesWithTheFormatSent) {
   add_basket();
   RelayOptions options;
   options.format = wire::euler | wire::ignore_blank | wire::keep_aspect;
-  EXPECT_EQ(run(options), exit_good);
+  EXPECT_EQ(run(options), cli::exit_good);
   ASSERT_EQ(basket.records.size(), 1u);
   const auto& sent = std::get<wire::CameraConstants>(basket.records[0]);
   EXPECT_NEAR(sent.fake_chip_width, 8.8 * 720 / 700, 1e-12);
@@ -179,7 +179,7 @@ TEST_F(RelayTest, WhatNeedsConstantsIsRefusedWithoutThemOnceToldAndCounted) {
   add_basket();
   RelayOptions options;
   options.format = wire::euler;
-  EXPECT_EQ(run(options), exit_failed);
+  EXPECT_EQ(run(options), cli::exit_failed);
   EXPECT_EQ(basket.records.size(), 2u);
   EXPECT_THAT(err.str(), HasSubstr("cannot be passed on as \"euler"));
   EXPECT_THAT(err.str(), HasSubstr("not passed on: 3 records"));
@@ -196,7 +196,7 @@ TEST_F(RelayTest, ConstantsWithoutAPictureReplaceNothingAndAreNotReexpressed) {
   add_basket();
   RelayOptions options;
   options.format = wire::euler;
-  EXPECT_EQ(run(options), exit_failed);
+  EXPECT_EQ(run(options), cli::exit_failed);
   EXPECT_EQ(basket.records.size(), 1u) << "the first constants only: what came after them made them invalid";
 }
 
@@ -205,7 +205,7 @@ TEST_F(RelayTest, ASinkThatRefusesDoesNotKeepTheOthersFromIt) {
   sinks.push_back(std::make_unique<Basket>(none, true));
   add_basket();
   for (std::uint64_t counter = 1; counter <= 4; ++counter) feed.put(test::params(counter));
-  EXPECT_EQ(run(), exit_failed);
+  EXPECT_EQ(run(), cli::exit_failed);
   EXPECT_EQ(basket.records.size(), 4u);
   EXPECT_TRUE(basket.closed && none.closed);
   EXPECT_THAT(err.str(), HasSubstr("trk: torn basket: "));
@@ -216,23 +216,23 @@ TEST_F(RelayTest, ASinkThatRefusesDoesNotKeepTheOthersFromIt) {
 TEST_F(RelayTest, AFileBeginsWhenConstantsCome) {
   const test::TemporaryDirectory directory;
   const std::string path = directory / "take.trk";
-  sinks.push_back(transport::open_sink("file:" + path));
+  sinks.push_back(endpoints::open_sink("file:" + path));
   for (std::uint64_t counter = 1; counter <= 3; ++counter) feed.put(test::params(counter));
   feed.put(test::constants());
   feed.put(test::params(4));
-  EXPECT_EQ(run(), exit_good) << err.str();
+  EXPECT_EQ(run(), cli::exit_good) << err.str();
   EXPECT_THAT(err.str(), HasSubstr("left out until constants come"));
   EXPECT_THAT(err.str(), HasSubstr("3 times"));
-  const auto take = transport::read_take(path);
+  const auto take = file::read_take(path);
   ASSERT_EQ(take.params.size(), 1u);
   EXPECT_EQ(take.params[0], test::params(4));
 }
 
 TEST_F(RelayTest, AFileWithoutConstantsIsNone) {
   const test::TemporaryDirectory directory;
-  sinks.push_back(transport::open_sink("file:" + (directory / "take.trk")));
+  sinks.push_back(endpoints::open_sink("file:" + (directory / "take.trk")));
   feed.put(test::params(1));
-  EXPECT_EQ(run(), exit_failed);
+  EXPECT_EQ(run(), cli::exit_failed);
   EXPECT_THAT(err.str(), HasSubstr("no constants came, so nothing was kept"));
 }
 
@@ -240,7 +240,7 @@ TEST_F(RelayTest, MalformedRecordsAreToldOncePerReason) {
   for (int i = 0; i < 5; ++i) feed.put_malformed(wire::Reason::bad_magic);
   feed.put_malformed(wire::Reason::truncated);
   add_basket();
-  EXPECT_EQ(run(), exit_good);
+  EXPECT_EQ(run(), cli::exit_good);
   const std::string text = err.str();
   EXPECT_EQ(text.find("bad magic"), text.rfind("bad magic: does")) << text;
   EXPECT_THAT(text, HasSubstr("malformed 6"));

@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "trk_bridge/camera/camera.h"
-#include "trk_bridge/transport/take_file.h"
+#include "file/take_file.h"
 #include "vectors.h"
 
 namespace trk_bridge {
 namespace {
 
-camera::Camera camera_of(const transport::Take& take, std::size_t field) {
+camera::Camera camera_of(const file::Take& take, std::size_t field) {
   const auto decoded = camera::decode(take.params.at(field), &take.constants);
   if (!decoded) throw std::runtime_error("field " + std::to_string(field) + ": " + camera::describe(decoded.error()));
   return *decoded;
@@ -19,7 +19,7 @@ camera::Camera camera_of(const transport::Take& take, std::size_t field) {
 
 TEST(Takes, ThreeFormatsTellOneCamera) {
   const auto read = [](const std::string& name) {
-    return transport::read_take(test::data_path("field/takes/" + name + ".trk"));
+    return file::read_take(test::data_path("field/takes/" + name + ".trk"));
   };
   const auto plain = read("euler");
   const auto angles = read("euler-ignore_blank-keep_aspect-field_of_view-vertical");

@@ -8,7 +8,7 @@
 
 #include "program.h"
 #include "temporary_directory.h"
-#include "trk_bridge/transport/take_file.h"
+#include "file/take_file.h"
 #include "udp.h"
 #include "vectors.h"
 
@@ -117,7 +117,7 @@ TEST(TrkRelay, RecordsATakeThatIsTheSameAgain) {
   Program relay({TRK_TOOL, "relay", "file:" + original + "?speed=0", "file:" + copy});
   EXPECT_THAT(relay.rest_of_err(), HasSubstr("sent to file " + copy + ": 2259 parameters, 1 constants, 0 errors"));
   EXPECT_EQ(relay.wait(), 0);
-  const auto before = transport::read_take(original), after = transport::read_take(copy);
+  const auto before = file::read_take(original), after = file::read_take(copy);
   EXPECT_EQ(after.params, before.params);
   EXPECT_EQ(after.constants, before.constants);
 }
@@ -138,7 +138,7 @@ TEST(TrkRelay, ClosesAFileInOrderOnSigterm) {
   relay.signal(SIGTERM);
   const std::string summary = relay.rest_of_err();
   EXPECT_EQ(relay.wait(), 0) << summary;
-  EXPECT_EQ(transport::read_take(path).params.size(), 3u);
+  EXPECT_EQ(file::read_take(path).params.size(), 3u);
 }
 
 TEST(TrkRelay, ArgumentsThatAreWrongEndItBeforeAnythingIsOpened) {

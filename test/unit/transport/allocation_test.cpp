@@ -7,7 +7,7 @@
 #include <new>
 #include <string>
 
-#include "trk_bridge/transport/sequence.h"
+#include "trk_bridge/base/sequence.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "udp.h"

@@ -15,8 +15,9 @@ using test::next;
 using test::next_counter;
 
 TEST(Memory, WhatIsWrittenIsRead) {
-  const auto source = open_source("memory:WhatIsWrittenIsRead");
-  const auto sink = open_sink("memory:WhatIsWrittenIsRead");
+  const auto queue = std::make_shared<test::MemoryQueue>();
+  const auto source = std::make_unique<test::MemorySource>(queue);
+  const auto sink = std::make_unique<test::MemorySink>(queue);
   EXPECT_EQ(source->statistics().state, SourceState::waiting);
   ASSERT_TRUE(sink->write(test::constants(1920, 2)));
   ASSERT_TRUE(sink->write(test::params(7, 2)));
@@ -35,48 +36,26 @@ TEST(Memory, WhatIsWrittenIsRead) {
 }
 
 TEST(Memory, NothingIsLost) {
-  const auto source = open_source("memory:NothingIsLost");
-  const auto sink = open_sink("memory:NothingIsLost");
+  const auto queue = std::make_shared<test::MemoryQueue>();
+  const auto source = std::make_unique<test::MemorySource>(queue);
+  const auto sink = std::make_unique<test::MemorySink>(queue);
   for (std::uint64_t i = 0; i < 5000; ++i) ASSERT_TRUE(sink->write(test::params(i)));
   for (std::uint64_t i = 0; i < 5000; ++i) ASSERT_EQ(next_counter(*source), i);
 }
 
-TEST(Memory, NamesAreQueuesOfTheirOwn) {
-  const auto source = open_source("memory:mine");
-  const auto other = open_sink("memory:yours");
-  const auto sink = open_sink("memory:mine");
-  ASSERT_TRUE(other->write(test::params(1)));
-  ASSERT_TRUE(sink->write(test::params(2)));
-  EXPECT_EQ(next_counter(*source), 2u);
-}
-
-TEST(Memory, AQueueEndsWithItsLastHolder) {
-  { ASSERT_TRUE(open_sink("memory:short")->write(test::params(1))); }
-  const auto source = open_source("memory:short");
-  Reception reception;
-  EXPECT_EQ(source->receive(reception, std::chrono::nanoseconds::zero()), Event::idle);
-}
-
-TEST(Memory, UnchangedConstantsAreWrittenOnce) {
-  const auto source = open_source("memory:constants");
-  const auto sink = open_sink("memory:constants");
-  ASSERT_TRUE(sink->write(test::constants(720)));
-  ASSERT_TRUE(sink->write(test::constants(720)));
-  ASSERT_TRUE(sink->write(test::constants(1920)));
-  EXPECT_EQ(sink->statistics().constants, 2u);
-}
-
 TEST(Memory, AWriteWakesAWaitingReader) {
-  const auto source = open_source("memory:wake");
-  const auto sink = open_sink("memory:wake");
+  const auto queue = std::make_shared<test::MemoryQueue>();
+  const auto source = std::make_unique<test::MemorySource>(queue);
+  const auto sink = std::make_unique<test::MemorySink>(queue);
   auto counter = std::async(std::launch::async, [&source] { return next_counter(*source); });
   ASSERT_TRUE(sink->write(test::params(3)));
   EXPECT_EQ(counter.get(), 3u);
 }
 
 TEST(Memory, StopWakesAndIsForGood) {
-  const auto source = open_source("memory:stop");
-  const auto sink = open_sink("memory:stop");
+  const auto queue = std::make_shared<test::MemoryQueue>();
+  const auto source = std::make_unique<test::MemorySource>(queue);
+  const auto sink = std::make_unique<test::MemorySink>(queue);
   auto event = std::async(std::launch::async, [&source] {
     Reception reception;
     return source->receive(reception, std::chrono::nanoseconds(-1));
@@ -97,11 +76,11 @@ TEST(Memory, AClosedSinkSaysSo) {
 }
 
 TEST(Memory, TestsMayPutAnythingInTheQueue) {
-  const auto source = open_source("memory:anything");
-  const auto queue = MemoryQueue::named("anything");
-  MemoryQueue::Entry entry;
+  const auto queue = std::make_shared<test::MemoryQueue>();
+  const auto source = std::make_unique<test::MemorySource>(queue);
+  test::MemoryQueue::Entry entry;
   entry.event = Event::malformed;
-  entry.reception.fault = {wire::Reason::bad_magic};
+  entry.reception.fault = wire::Fault{wire::Reason::bad_magic};
   entry.reception.sample.arrival = 12;
   queue->push(entry);
   entry.event = Event::sample;
@@ -113,7 +92,7 @@ TEST(Memory, TestsMayPutAnythingInTheQueue) {
 
   Reception reception;
   ASSERT_EQ(next(*source, reception), Event::malformed);
-  EXPECT_EQ(reception.fault.reason, wire::Reason::bad_magic);
+  EXPECT_STREQ(reception.fault.name(), wire::name(wire::Reason::bad_magic));
   EXPECT_EQ(reception.sample.arrival, 12);
   EXPECT_EQ(source->statistics().state, SourceState::nothing_valid);
   ASSERT_EQ(next(*source, reception), Event::sample);
@@ -124,12 +103,13 @@ TEST(Memory, TestsMayPutAnythingInTheQueue) {
 }
 
 TEST(Memory, ManyWritersManyRecords) {
-  const auto source = open_source("memory:many");
+  const auto queue = std::make_shared<test::MemoryQueue>();
+  const auto source = std::make_unique<test::MemorySource>(queue);
   constexpr std::uint64_t each = 500;
   std::vector<std::thread> writers;
   for (std::uint32_t id = 1; id <= 4; ++id) {
-    writers.emplace_back([id] {
-      const auto sink = open_sink("memory:many");
+    writers.emplace_back([id, queue] {
+      const auto sink = std::make_unique<test::MemorySink>(queue);
       for (std::uint64_t i = 0; i < each; ++i) EXPECT_TRUE(sink->write(test::params(i, id)));
     });
   }

@@ -1,0 +1,25 @@
+// URLs to sources and sinks: the one place that knows all schemes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+#include "trk_bridge/transport/endpoint.h"
+
+namespace trk_bridge::endpoints {
+
+/// Reads a URL to read from. The error names the part, its value and what is allowed; an unknown option's lists the
+/// known ones for that scheme and direction. `%XX` in paths and values stands for a byte (needed for `?`, `&`, `%`).
+tl::expected<transport::SourceEndpoint, std::string> parse_source(std::string_view url);
+/// Reads a URL to write to, likewise. `format=` (words with commas or + between them), `preset=` and `id=` are options
+/// of every scheme.
+tl::expected<transport::SinkEndpoint, std::string> parse_sink(std::string_view url);
+
+/// Both at once: a wrong URL is a TransportError, too.
+std::unique_ptr<transport::Source> open_source(std::string_view url, double field_rate = 50.0);
+std::unique_ptr<transport::Sink> open_sink(std::string_view url);
+
+}  // namespace trk_bridge::endpoints

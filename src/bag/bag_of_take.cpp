@@ -1,0 +1,193 @@
+#include <limits>
+#include <map>
+#include <ostream>
+#include <system_error>
+#include <vector>
+
+#include <ros/message_traits.h>
+#include <rosbag/bag.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "bag_take.h"
+#include "bag_timing.h"
+#include "ros/camera_pipeline.h"
+#include "trk_bridge/ros/frames.h"
+#include "ros/stamper.h"
+#include "ros/trk_to_ros_parameters.h"
+#include "file/part_file.h"
+#include "trk_bridge/transport/source.h"
+#include "file/take_file.h"
+
+namespace trk_bridge::bag {
+namespace {
+
+std::string plain(std::string fault) { return fault.substr(fault.find_first_not_of('~')); }
+
+ros1::CameraParameters camera_parameters(const TakeToBagOptions& options) {
+  ros1::TrkToRosParameters node;
+  auto& camera = node.cameras.emplace_back();
+  camera.name = options.camera;
+  camera.source = "file:take";
+  camera.studio_frame = options.studio_frame;
+  camera.camera_frame = options.camera_frame.value_or(options.camera);
+  camera.optical_frame = options.optical_frame.value_or(options.camera + "_optical");
+  camera.format = options.format;
+  node.field_rate = options.field_rate;
+  const auto faults = validate(node);
+  if (!faults.empty()) throw BagError(plain(faults.front()));
+  return camera;
+}
+
+/// When the fields of a take were.
+class Schedule {
+ public:
+  Schedule(const base::TimeCode& code, const TakeToBagOptions& options)
+      : rate_(options.field_rate), code_(options.start ? base::TimeCode{} : code) {
+    const auto of_code = base::nanoseconds_of(code, rate_, 0);
+    if (!of_code && !options.start) throw BagError(of_code.error() + "; say --field-rate HZ, or --start TIME");
+    base_ = options.start.value_or(options.midnight);
+    if (of_code) zero_ = options.start ? base_ - *of_code : base_;
+  }
+
+  std::int64_t at(std::uint64_t field) const { return base_ + base::nanoseconds_of(code_, rate_, field).value(); }
+  /// When the time code was 00:00:00:00:1; none when the code does not go with the rate.
+  std::optional<std::int64_t> zero() const noexcept { return zero_; }
+
+ private:
+  double rate_;
+  base::TimeCode code_;
+  std::int64_t base_ = 0;
+  std::optional<std::int64_t> zero_;
+};
+
+/// Writes messages as a recorder would have got them from trk_to_ros. Connection headers are made here, for the order
+/// in which a recorder meets publishers is chance.
+class Recording {
+ public:
+  Recording(const std::string& path, const TakeToBagOptions& options, std::optional<std::int64_t> zero)
+      : caller_("/" + options.camera + "/trk_to_ros") {
+    extra_[field_rate_key] = rate_text(options.field_rate);
+    if (zero) extra_[time_code_zero_key] = std::to_string(*zero);
+    bag_.open(path, rosbag::bagmode::Write);
+    bag_.setCompression(options.compression == "bz2"   ? rosbag::compression::BZ2
+                        : options.compression == "lz4" ? rosbag::compression::LZ4
+                                                       : rosbag::compression::Uncompressed);
+  }
+
+  template <typename Message>
+  void write(const std::string& topic, ::ros::Time stamp, const Message& message, bool is_latched = false) {
+    auto& header = headers_[topic];
+    if (!header) {
+      header = boost::make_shared<::ros::M_string>(extra_);
+      (*header)["callerid"] = caller_;
+      (*header)["latching"] = is_latched ? "1" : "0";
+      (*header)["md5sum"] = ::ros::message_traits::md5sum(message);
+      (*header)["message_definition"] = ::ros::message_traits::definition(message);
+      (*header)["topic"] = topic;
+      (*header)["type"] = ::ros::message_traits::datatype(message);
+    }
+    bag_.write(topic, stamp, message, header);
+  }
+
+  void write(const std::string& topic, const geometry_msgs::TransformStamped& transform, bool is_latched = false) {
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(transform);
+    write(topic, transform.header.stamp, message, is_latched);
+  }
+
+  void close() { bag_.close(); }
+
+ private:
+  const std::string caller_;
+  ::ros::M_string extra_;
+  std::map<std::string, boost::shared_ptr<::ros::M_string>> headers_;
+  rosbag::Bag bag_;
+};
+
+geometry_msgs::TransformStamped optical_transform(const ros1::CameraParameters& camera, ::ros::Time stamp) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = stamp;
+  transform.header.frame_id = camera.camera_frame;
+  transform.child_frame_id = camera.optical_frame;
+  transform.transform = ros1::to_transform(ros1::camera_T_optical());
+  return transform;
+}
+
+void tell(const ros1::CameraStatistics& statistics, std::ostream& err) {
+  const auto line = [&err](std::uint64_t times, const std::string& what) {
+    if (times > 0) err << "trk: " << times << " fields " << what << '\n';
+  };
+  const auto& sequence = statistics.sequence;
+  line(sequence.duplicates + sequence.late,
+       "are not in the bag: their counter came before, and trk_to_ros publishes none twice");
+  line(statistics.dropped, "are not in the bag: " + camera::describe(statistics.drop_reason));
+  line(statistics.withheld, "are without params: " + camera::describe(statistics.withhold_reason));
+  line(statistics.without_camera_info, "are without camera_info: " + camera::describe(statistics.info_reason));
+  if (statistics.bad_constants > 0) {
+    err << "trk: the constants are not in the bag: " << camera::describe(camera::CameraReason::bad_constants) << '\n';
+  }
+}
+
+void record(const file::Take& take, const Schedule& schedule, ros1::CameraPipeline& pipeline, Recording& recording,
+            cli::LongRun& run) {
+  const auto& camera = pipeline.parameters();
+  const std::string topics = "/" + camera.name + "/";
+  const auto begin = ros1::to_time(schedule.at(0));
+  const auto end = ros1::to_time(schedule.at(take.params.size()));
+  if (!begin || !end) throw BagError("its fields are outside of 1970 to 2106, which is what ROS can tell");
+
+  recording.write("/tf_static", optical_transform(camera, *begin), /*is_latched=*/true);
+  transport::Sample sample;
+  sample.sender.kind = transport::SenderKind::file;
+  sample.arrival = schedule.at(0);
+  sample.record = take.constants;
+  if (pipeline.process(sample, sample.arrival).constants) {
+    recording.write(topics + "constants", *begin, pipeline.constants(), /*is_latched=*/true);
+  }
+  for (std::size_t i = 0; i < take.params.size(); ++i) {
+    run.at(static_cast<double>(i) / static_cast<double>(take.params.size()));
+    sample.arrival = schedule.at(i);
+    sample.record = take.params[i];
+    const auto made = pipeline.process(sample, sample.arrival);
+    const auto stamp = pipeline.params().header.stamp;
+    if (made.transform) recording.write("/tf", pipeline.transform());
+    if (made.params) recording.write(topics + "params", stamp, pipeline.params());
+    if (made.camera_info) recording.write(topics + "camera_info", stamp, pipeline.camera_info());
+  }
+}
+
+}  // namespace
+
+void bag_of_take(const std::string& take_path, const std::string& bag_path, const TakeToBagOptions& options,
+                 cli::LongRun& run, std::ostream& err) {
+  const file::Take take = file::read_take(take_path);
+  try {
+    ros1::CameraPipeline pipeline(camera_parameters(options), options.field_rate);
+    const Schedule schedule(take.time_code, options);
+    file::PartFile file(bag_path, options.overwrite);
+    run.begin("writing " + bag_path);
+    try {
+      Recording recording(file.part(), options, schedule.zero());
+      record(take, schedule, pipeline, recording, run);
+      recording.close();
+    } catch (...) {
+      file.discard();
+      throw;
+    }
+    run.end();
+    if (const auto published = file.publish(); !published) {
+      throw transport::TransportError(bag_path +
+                                      ": cannot be written: " + std::system_category().message(published.error()));
+    }
+    tell(pipeline.statistics(), err);
+    err << "trk: " << bag_path << ": " << pipeline.statistics().sequence.accepted << " fields of camera "
+        << options.camera << ", from " << stamp_text(schedule.at(0)) << " at " << rate_text(options.field_rate)
+        << " fields a second\n";
+  } catch (const BagError& error) {
+    throw BagError(take_path + ": " + error.what());
+  } catch (const rosbag::BagException& error) {
+    throw transport::TransportError(bag_path + ": cannot be written: " + error.what());
+  }
+}
+
+}  // namespace trk_bridge::bag

@@ -1,0 +1,36 @@
+// `trk bag`, both ways.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "bag_fields.h"
+#include "cli/long_run.h"
+
+namespace trk_bridge::bag {
+
+struct TakeToBagOptions {
+  std::string camera = "camera";
+  std::string studio_frame = "studio";
+  std::optional<std::string> camera_frame, optical_frame;  ///< none: as trk_to_ros names them
+  std::string format = "as_received";                      ///< trk_to_ros's, so that the take can be had back
+  double field_rate = 50;                                  ///< Hz
+  std::int64_t midnight = default_midnight;                ///< when the time code was 00:00:00:00:1, ns since 1970 UTC
+  std::optional<std::int64_t> start;  ///< of the first field, ns since 1970 UTC: the time code is left aside
+  std::string compression = "none";   ///< none, bz2 or lz4
+  bool overwrite = false;
+
+  /// 1970-01-02: nobody takes it for the day of the recording, which a take does not tell, and ROS can tell it.
+  static constexpr std::int64_t default_midnight = 86'400'000'000'000;
+};
+
+/// Writes what trk_to_ros would have published of a take, stamped by its time code. Equal takes and options make equal
+/// files. Throws std::runtime_error, and Interrupted, and then leaves nothing.
+void bag_of_take(const std::string& take, const std::string& bag, const TakeToBagOptions&, cli::LongRun&, std::ostream& err);
+
+/// Makes a take of a recording, whole or cut short. What it lacks is told on `err`. Throws as the above.
+void take_of_bag(const std::string& bag, const std::string& take, const BagToTakeOptions&, cli::LongRun&, std::ostream& err);
+
+}  // namespace trk_bridge::bag

@@ -1,0 +1,66 @@
+#include <ostream>
+
+#include "bag_take.h"
+#include "bag_timing.h"
+#include "file/part_file.h"
+#include "trk_bridge/transport/source.h"
+#include "file/take_file.h"
+
+namespace trk_bridge::bag {
+namespace {
+
+void check(const tl::expected<void, transport::SinkFault>& written, const file::TakeWriter& writer) {
+  if (written) return;
+  throw transport::TransportError(writer.path() + ": cannot be written: " + transport::describe(written.error()));
+}
+
+void write(const BagFields& fields, const base::TimeCode& code, const std::string& path, bool overwrite,
+           cli::LongRun& run) {
+  file::TakeWriter writer(path, code, overwrite);
+  run.begin("writing " + path);
+  try {
+    check(writer.write(fields.constants), writer);
+    double done = 0;
+    for (const auto& params : fields.params) {
+      run.at(done++ / static_cast<double>(fields.params.size()));
+      check(writer.write(params), writer);
+    }
+  } catch (...) {
+    writer.discard();
+    throw;
+  }
+  check(writer.close(), writer);
+  run.end();
+}
+
+}  // namespace
+
+void take_of_bag(const std::string& bag_path, const std::string& take_path, const BagToTakeOptions& options,
+                 cli::LongRun& run, std::ostream& err) {
+  file::PartFile::check_target(take_path, options.overwrite);
+  try {
+    BagFile bag(bag_path, run);
+    const auto camera = choose_camera(bag.connections(), options.camera, options.input);
+    const bool by_params = camera.input == BagInput::params;
+    const auto fields = by_params ? fields_from_params(bag, camera.name, options, run, err)
+                                  : fields_from_tf(bag, camera.name, options, run, err);
+    run.end();
+    if (!bag.damage().empty()) err << "trk: " << bag_path << " is cut short: " << bag.damage() << '\n';
+
+    const std::string topic = topic_of(camera.name, by_params ? "params" : "camera_info");
+    const auto clockwork = clockwork_of(bag.connections(), topic);
+    const double rate = field_rate_of(options.field_rate, clockwork.field_rate,
+                                      measured_rate(fields.params, fields.stamps, fields.has_counters), err);
+    const auto code = time_code_of(fields.stamps.front(), rate, clockwork.time_code_zero);
+    if (!code) throw BagError(code.error());
+    tell_gaps(fields.params, fields.stamps, fields.has_counters, rate, err);
+    write(fields, *code, take_path, options.overwrite, run);
+    err << "trk: " << take_path << ": " << fields.params.size() << " fields of " << topic
+        << (by_params ? "" : " and tf") << ", from " << base::to_string(*code) << " at " << rate_text(rate)
+        << " fields a second\n";
+  } catch (const BagError& error) {
+    throw BagError(bag_path + ": " + error.what());
+  }
+}
+
+}  // namespace trk_bridge::bag

@@ -1,0 +1,21 @@
+// The two clocks that everything here reads.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace trk_bridge::base {
+
+/// For ages and rates: nanoseconds of a clock that nobody sets.
+inline std::int64_t steady_now() noexcept {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+/// For stamps: nanoseconds since 1970 UTC, of the system's clock.
+inline std::int64_t wall_now() noexcept {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace trk_bridge::base

@@ -1,0 +1,52 @@
+#include "arguments.h"
+
+#include <exception>
+#include <iostream>
+
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::cli {
+
+transport::SourceEndpoint source_from(const std::string& url) {
+  auto endpoint = endpoints::parse_source(url);
+  if (!endpoint) throw CLI::ValidationError(endpoint.error());
+  return *std::move(endpoint);
+}
+
+transport::SinkEndpoint sink_from(const std::string& url) {
+  auto endpoint = endpoints::parse_sink(url);
+  if (!endpoint) throw CLI::ValidationError(endpoint.error());
+  return *std::move(endpoint);
+}
+
+std::uint32_t format_from(const std::string& words) {
+  const auto format = wire::format_from_words(words);
+  if (!format) throw CLI::ValidationError("--format: " + format.error());
+  if (const auto sound = wire::check_writable(*format); !sound)
+    throw CLI::ValidationError("--format: " + sound.error());
+  return *format;
+}
+
+endpoints::Preset preset_from(const std::string& name) {
+  auto preset = endpoints::find_preset(name);
+  if (!preset) throw CLI::ValidationError("--preset: " + preset.error());
+  return *std::move(preset);
+}
+
+ExitCode run_program(CLI::App& app, int argc, const char* const* argv, const std::function<ExitCode()>& run) {
+  try {
+    app.parse(argc, argv);
+    return run();
+  } catch (const CLI::Success& help) {
+    app.exit(help);
+    return exit_good;
+  } catch (const CLI::Error& error) {
+    std::cerr << app.get_name() << ": error: " << error.what() << "\nRun with --help for more information.\n";
+    return exit_usage;
+  } catch (const std::exception& error) {
+    std::cerr << app.get_name() << ": error: " << error.what() << '\n';
+    return exit_failed;
+  }
+}
+
+}  // namespace trk_bridge::cli

@@ -1,0 +1,32 @@
+// Arguments that several programs share, and how their errors end a program.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "exit_code.h"
+#include "endpoints/presets.h"
+#include "trk_bridge/endpoints/endpoints.h"
+
+namespace trk_bridge::cli {
+
+/// For the end of a help text.
+inline constexpr const char* endpoints_help =
+    "An endpoint is udp://[HOST]:PORT, shm:SLOT or file:PATH, with options behind a question mark.";
+
+/// All throw CLI::ValidationError with the parser's text.
+transport::SourceEndpoint source_from(const std::string& url);
+transport::SinkEndpoint sink_from(const std::string& url);
+/// A format that records may be made in.
+std::uint32_t format_from(const std::string& words);
+/// The preset of that name.
+endpoints::Preset preset_from(const std::string& name);
+
+/// Parses, runs, and turns what is thrown into one line on standard error and an exit code: exit_usage for CLI's
+/// errors, exit_failed for all others.
+ExitCode run_program(CLI::App&, int argc, const char* const* argv, const std::function<ExitCode()>& run);
+
+}  // namespace trk_bridge::cli

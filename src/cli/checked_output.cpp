@@ -1,0 +1,34 @@
+#include "checked_output.h"
+
+#include <cerrno>
+#include <ostream>
+#include <system_error>
+
+namespace trk_bridge::cli {
+
+bool CheckedOutput::line(std::string_view text, bool flush) {
+  if (error_ != 0) return false;
+  errno = 0;
+  out_ << text << '\n';
+  if (flush) out_.flush();
+  return note_error();
+}
+
+ExitCode CheckedOutput::finish(std::ostream& err) {
+  if (error_ == 0) {
+    errno = 0;
+    out_.flush();
+    note_error();
+  }
+  if (error_ == 0 || error_ == EPIPE) return exit_good;
+  err << "trk: error: standard output: " << std::generic_category().message(error_) << '\n';
+  return exit_failed;
+}
+
+bool CheckedOutput::note_error() {
+  if (out_) return true;
+  error_ = errno != 0 ? errno : EIO;
+  return false;
+}
+
+}  // namespace trk_bridge::cli

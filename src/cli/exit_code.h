@@ -1,0 +1,12 @@
+// How a program of this project ends.
+#pragma once
+
+namespace trk_bridge::cli {
+
+enum ExitCode : int {
+  exit_good = 0,
+  exit_failed = 1,  ///< something could not be opened, received or sent
+  exit_usage = 2,   ///< the command line was not understood
+};
+
+}  // namespace trk_bridge::cli

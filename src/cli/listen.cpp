@@ -1,0 +1,46 @@
+#include "listen.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace trk_bridge::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds for_ever{-1};
+// About three years: what is longer is as good as without end, and within what the clock can tell.
+constexpr double longest_limit = 1e8;
+
+}  // namespace
+
+Ending listen(transport::Source& source, Listener& listener, std::optional<double> seconds) {
+  const bool is_limited = seconds && *seconds < longest_limit;
+  const auto limit = is_limited ? std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(*seconds))
+                                : nanoseconds::zero();
+  const auto deadline = Clock::now() + limit;
+  transport::Reception reception;
+  for (;;) {
+    const nanoseconds left = is_limited ? nanoseconds(deadline - Clock::now()) : for_ever;
+    if (is_limited && left <= nanoseconds::zero()) return Ending::enough;
+    switch (source.receive(reception, left)) {
+      case transport::Event::sample:
+        if (!listener.on_sample(reception.sample)) return Ending::enough;
+        break;
+      case transport::Event::malformed:
+        listener.on_malformed(reception);
+        break;
+      case transport::Event::idle:
+        break;
+      case transport::Event::stopped:
+        return Ending::stopped;
+      case transport::Event::ended:
+        return Ending::ended;
+      case transport::Event::failed:
+        return Ending::failed;
+    }
+  }
+}
+
+}  // namespace trk_bridge::cli

@@ -1,0 +1,31 @@
+// The loop in which a program takes records from a source.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "trk_bridge/transport/source.h"
+
+namespace trk_bridge::cli {
+
+/// What a program does with what comes.
+class Listener {
+ public:
+  virtual ~Listener() = default;
+  /// Whether to go on.
+  virtual bool on_sample(const transport::Sample&) = 0;
+  /// One record was not sound.
+  virtual void on_malformed(const transport::Reception&) = 0;
+};
+
+enum class Ending : std::uint8_t {
+  enough,   ///< the listener or the time limit said so
+  stopped,  ///< by Source::stop
+  ended,    ///< the source has no more
+  failed,   ///< the source cannot go on
+};
+
+/// Until the source ends, is stopped or fails, the listener has enough, or `seconds` (wall time) have passed.
+Ending listen(transport::Source&, Listener&, std::optional<double> seconds = std::nullopt);
+
+}  // namespace trk_bridge::cli

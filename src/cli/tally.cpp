@@ -1,0 +1,49 @@
+#include "tally.h"
+
+#include <ostream>
+#include <tuple>
+#include <variant>
+
+namespace trk_bridge::cli {
+
+bool Tally::Less::operator()(const Key& a, const Key& b) const noexcept {
+  return std::tie(a.id, a.sender.kind, a.sender.address, a.sender.number) <
+         std::tie(b.id, b.sender.kind, b.sender.address, b.sender.number);
+}
+
+std::optional<base::Order> Tally::add(const transport::Sample& sample) {
+  const auto* params = std::get_if<wire::CameraParams>(&sample.record);
+  if (params == nullptr) {
+    ++constants_;
+    return std::nullopt;
+  }
+  ++params_;
+  const Key key{params->id, sample.sender};
+  auto camera = cameras_.find(key);
+  if (camera == cameras_.end()) {
+    if (cameras_.size() == most_cameras) {
+      ++not_judged_;
+      return std::nullopt;
+    }
+    camera = cameras_.try_emplace(key).first;
+  }
+  return camera->second.judge(params->counter);
+}
+
+void Tally::summarise(const transport::SourceStatistics& source, std::ostream& out) const {
+  out << "trk: received " << params_ + constants_ << " (" << params_ << " parameters, " << constants_
+      << " constants), malformed " << source.malformed << ", refused " << source.refused << ", kernel drops "
+      << source.kernel_drops << ", overwritten " << source.overwritten << '\n';
+  for (const auto& [key, sequence] : cameras_) {
+    const auto& counts = sequence.counts();
+    out << "trk: id " << key.id << " from " << transport::to_string(key.sender) << ": " << counts.accepted
+        << " accepted, " << counts.lost << " lost, " << counts.duplicates << " duplicate, " << counts.late
+        << " out of order, " << counts.restarts << " restarts\n";
+  }
+  if (not_judged_ != 0) {
+    out << "trk: " << not_judged_ << " parameters of more cameras than the " << most_cameras
+        << " whose counters are judged\n";
+  }
+}
+
+}  // namespace trk_bridge::cli

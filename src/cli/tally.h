@@ -1,0 +1,43 @@
+// What came, counted by camera and sender, for the summary at a program's end.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "trk_bridge/base/sequence.h"
+#include "trk_bridge/transport/source.h"
+
+namespace trk_bridge::cli {
+
+/// Not synchronised. Allocates only for a camera that it has not met.
+class Tally {
+ public:
+  /// The verdict on the counter; none for constants, and for cameras beyond `most_cameras`.
+  std::optional<base::Order> add(const transport::Sample&);
+
+  struct Key {
+    std::uint32_t id = 0;
+    transport::Sender sender;
+  };
+  struct Less {
+    bool operator()(const Key&, const Key&) const noexcept;
+  };
+  const std::map<Key, base::Sequence, Less>& cameras() const noexcept { return cameras_; }
+  std::uint64_t params() const noexcept { return params_; }
+  std::uint64_t constants() const noexcept { return constants_; }
+
+  /// One line about the source, then one a camera: `trk: id 7 from 192.0.2.7:5000: 100 accepted, 3 lost, …`.
+  void summarise(const transport::SourceStatistics&, std::ostream&) const;
+
+  /// Cameras whose counters are judged; of any more, as a port scan could feign, records are only counted.
+  static constexpr std::size_t most_cameras = 256;
+
+ private:
+  std::map<Key, base::Sequence, Less> cameras_;
+  std::uint64_t params_ = 0, constants_ = 0, not_judged_ = 0;
+};
+
+}  // namespace trk_bridge::cli

@@ -1,0 +1,104 @@
+#include "crane_shot.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <ros/console.h>
+#include <ros/init.h>
+
+#include "crane_motion.h"
+#include "nodes/node_parameters.h"
+#include "trk_bridge/ros/messages.h"
+#include "ros/parameter_reader.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::demo {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+template <typename T>
+T sound(camera::Result<T> result, const char* what) {
+  if (!result) throw std::runtime_error(std::string(what) + ": " + camera::describe(result.error()));
+  return *std::move(result);
+}
+
+}  // namespace
+
+CraneShot::CraneShot(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string&) {
+  std::vector<std::string> faults;
+  ros1::ParameterReader reader(nodes::private_parameters(private_node), "~", faults);
+  rate_ = reader.number("rate").value_or(rate_);
+  if (!(rate_ >= 1 && rate_ <= 1000)) {
+    faults.push_back("~rate = " + std::to_string(rate_) + ": must be 1 to 1000 Hz");
+  }
+  const std::string joints = reader.text("joints").value_or("shot");
+  if (joints != "shot" && joints != "external") {
+    faults.push_back("~joints = '" + joints + "': must be shot or external");
+  }
+  camera_info_.header.frame_id = reader.text("optical_frame").value_or("camera_optical");
+  reader.refuse_unknown();
+  if (!faults.empty()) throw ros1::ParameterError(faults);
+
+  moves_joints_ = joints == "shot";
+  joint_state_.name.assign(demo::joint_names.begin(), demo::joint_names.end());
+  joint_state_.position.resize(demo::joint_names.size());
+  constexpr std::uint32_t queue = 100;
+  if (moves_joints_) joint_states_ = node.advertise<sensor_msgs::JointState>("joint_states", queue);
+  camera_infos_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", queue);
+  lenses_ = node.advertise<trk_bridge::CameraParams>("lens", queue);
+  thread_ = std::thread([this] { run(); });
+}
+
+CraneShot::~CraneShot() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopped_ = true;
+  }
+  stop_.notify_one();
+  thread_.join();
+}
+
+void CraneShot::run() {
+  try {
+    const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate_));
+    const auto begin = Clock::now();
+    auto next = begin;
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!stop_.wait_until(lock, next, [this] { return stopped_; })) {
+      const auto now = Clock::now();
+      publish(std::chrono::duration<double>(now - begin).count());
+      // What a machine that stood still has missed is not made up for.
+      next += period * std::max<Clock::rep>(1, (now - next) / period);
+    }
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM("the crane stops: " << error.what());
+    ::ros::shutdown();
+  }
+}
+
+void CraneShot::publish(double seconds) {
+  const demo::Moment moment = demo::moment_at(seconds);
+  const auto constants = demo::camera_constants();
+  const auto stamp = ::ros::Time::now();
+
+  camera_info_.header.stamp = stamp;
+  ros1::to_msg(sound(calibrator_.calibrate(moment.lens, constants), "camera_info"), camera_info_);
+  camera_infos_.publish(camera_info_);
+
+  camera::Camera camera;
+  camera.lens = moment.lens;
+  lens_.header.stamp = stamp;
+  ros1::to_msg(sound(camera::encode(camera, wire::euler, &constants), "lens"), lens_);
+  lenses_.publish(lens_);
+
+  if (!moves_joints_) return;
+  joint_state_.header.stamp = stamp;
+  std::copy(moment.joints.begin(), moment.joints.end(), joint_state_.position.begin());
+  joint_states_.publish(joint_state_);
+}
+
+}  // namespace trk_bridge::demo

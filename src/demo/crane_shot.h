@@ -1,0 +1,51 @@
+// The example crane in motion: joint states, and what its camera's lens tells.
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/JointState.h>
+#include <trk_bridge/CameraParams.h>
+
+#include "trk_bridge/camera/calibration.h"
+
+namespace trk_bridge::demo {
+
+/// Publishes, from a thread of its own and with one stamp for all of a moment, from construction to destruction:
+/// `joint_states`, `camera_info` (frame_id: parameter `optical_frame`) and `lens`, whose pose is the origin since only
+/// joints and tf know it.
+class CraneShot {
+ public:
+  /// Topics are in the namespace of `node`, parameters in that of `private_node`: `rate` (Hz, 1..1000, default 50),
+  /// `joints` (`shot`, or `external`: joint states come from elsewhere, only the lens is published) and `optical_frame`
+  /// (default camera_optical). Throws ParameterError.
+  CraneShot(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string& name);
+  ~CraneShot();
+  CraneShot(const CraneShot&) = delete;
+  CraneShot& operator=(const CraneShot&) = delete;
+
+ private:
+  void run();
+  void publish(double seconds);
+
+  double rate_ = 50;
+  bool moves_joints_ = true;
+  ::ros::Publisher joint_states_, camera_infos_, lenses_;
+  sensor_msgs::JointState joint_state_;
+  sensor_msgs::CameraInfo camera_info_;
+  trk_bridge::CameraParams lens_;
+  camera::Calibrator calibrator_;
+
+  std::mutex mutex_;
+  std::condition_variable stop_;
+  bool stopped_ = false;  // guarded by mutex_
+  std::thread thread_;
+};
+
+}  // namespace trk_bridge::demo

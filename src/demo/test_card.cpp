@@ -1,0 +1,155 @@
+#include "test_card.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+
+#include <ros/console.h>
+#include <sensor_msgs/image_encodings.h>
+#include <visualization_msgs/MarkerArray.h>
+#include <opencv2/imgproc.hpp>
+
+#include "nodes/node_parameters.h"
+#include "test_card_markers.h"
+#include "test_card_parameters.h"
+#include "test_card_picture.h"
+#include "test_card_view.h"
+#include "trk_bridge/ros/messages.h"
+
+namespace trk_bridge::demo {
+namespace {
+
+/// A camera with more pixels than this would fill the memory rather than a screen.
+constexpr std::int64_t most_pixels = 64 << 20;
+
+/// CameraInfos kept until an image of their time is to be rectified: as many as come while one is made, and more.
+constexpr std::size_t kept_infos = 100;
+
+/// The memory of a message as OpenCV's picture, made large enough.
+cv::Mat picture_of(sensor_msgs::Image& image, int width, int height) {
+  image.width = static_cast<std::uint32_t>(width);
+  image.height = static_cast<std::uint32_t>(height);
+  image.step = image.width;
+  image.encoding = sensor_msgs::image_encodings::MONO8;
+  image.data.resize(std::size_t{image.step} * image.height);
+  return cv::Mat(height, width, CV_8UC1, image.data.data());
+}
+
+}  // namespace
+
+TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string&) {
+  const auto parameters =
+      demo::read_parameters(nodes::private_parameters(private_node), nodes::camera_name_of(node.getNamespace()));
+  figure_ = demo::figure_at(parameters.place);
+  period_ = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.rate));
+  image_.header.frame_id = parameters.optical_frame;
+
+  image_transport::ImageTransport transport(node);
+  images_ = transport.advertise("image_raw", 1);
+  rectified_images_ = transport.advertise("image_rect", 1);
+  paired_images_ = transport.advertise("rectified/image", 1);
+  paired_infos_ = node.advertise<sensor_msgs::CameraInfo>("rectified/camera_info", 1);
+  markers_ = node.advertise<visualization_msgs::MarkerArray>("test_card", 1, /*latch=*/true);
+  markers_.publish(demo::markers_of(figure_, parameters.studio_frame));
+
+  constants_subscriber_ = node.subscribe<trk_bridge::CameraConstants>(
+      "constants", 1,
+      [this](const trk_bridge::CameraConstantsConstPtr& message) { constants_ = ros1::from_msg(*message); });
+  // A queue of one: while a picture is made, newer params take the place of those that wait.
+  params_subscriber_ = node.subscribe<trk_bridge::CameraParams>(
+      "params", 1, [this](const trk_bridge::CameraParamsConstPtr& message) { take(message); });
+  info_subscriber_ = node.subscribe<sensor_msgs::CameraInfo>(
+      "camera_info", static_cast<std::uint32_t>(kept_infos),
+      [this](const sensor_msgs::CameraInfoConstPtr& message) { take(message); });
+}
+
+void TestCard::take(const trk_bridge::CameraParamsConstPtr& message) {
+  const bool raw = images_.getNumSubscribers() > 0, rectified = rectified_wanted();
+  if (!raw && !rectified) return;
+  const auto now = Clock::now();
+  if (now < due_) return;
+  // Counted from when it was due, so that the rate holds on the average whatever the rate of params; what was missed is
+  // not made up for.
+  due_ = std::max(due_ + period_, now);
+  to_be_rectified_ = false;
+  if (!render(*message)) return;
+  if (raw) images_.publish(image_);
+  to_be_rectified_ = rectified;
+  rectify_when_told();
+}
+
+void TestCard::take(const sensor_msgs::CameraInfoConstPtr& message) {
+  if (infos_.size() == kept_infos) infos_.pop_front();
+  infos_.push_back(message);
+  rectify_when_told();
+}
+
+bool TestCard::render(const trk_bridge::CameraParams& params) {
+  if (!constants_) {
+    picture_trouble_.tell("no constants yet, no picture without");
+    return false;
+  }
+  const auto view = demo::View::of(ros1::from_msg(params), *constants_);
+  if (!view) {
+    picture_trouble_.tell("no picture: " + camera::describe(view.error()));
+    return false;
+  }
+  if (std::int64_t{view->width()} * view->height() > most_pixels) {
+    picture_trouble_.tell("no picture: " + std::to_string(view->width()) + " x " + std::to_string(view->height()) +
+                          " pixels are more than " + std::to_string(most_pixels));
+    return false;
+  }
+  picture_trouble_.tell("");
+  image_.header.stamp = params.header.stamp;
+  cv::Mat picture = picture_of(image_, view->width(), view->height());
+  demo::draw(figure_, *view, picture);
+  return true;
+}
+
+bool TestCard::rectified_wanted() const {
+  return rectified_images_.getNumSubscribers() > 0 || paired_images_.getNumSubscribers() > 0;
+}
+
+void TestCard::rectify_when_told() {
+  if (!to_be_rectified_) return;
+  const auto found = std::find_if(infos_.rbegin(), infos_.rend(), [this](const sensor_msgs::CameraInfoConstPtr& info) {
+    return info->header.stamp == image_.header.stamp;
+  });
+  if (found == infos_.rend()) return;
+  to_be_rectified_ = false;
+  try {
+    rectify(**found);
+  } catch (const std::exception& error) {
+    rectification_trouble_.tell(std::string("camera_info does not rectify the picture: ") + error.what());
+  }
+}
+
+void TestCard::rectify(const sensor_msgs::CameraInfo& info) {
+  if (info.width != image_.width || info.height != image_.height) {
+    rectification_trouble_.tell("camera_info is of " + std::to_string(info.width) + " x " +
+                                std::to_string(info.height) + " pixels, constants of " + std::to_string(image_.width) +
+                                " x " + std::to_string(image_.height));
+    return;
+  }
+  const int width = static_cast<int>(image_.width), height = static_cast<int>(image_.height);
+  model_.fromCameraInfo(info);
+  rectified_.header = image_.header;
+  cv::Mat rectified = picture_of(rectified_, width, height);
+  model_.rectifyImage(picture_of(image_, width, height), rectified, cv::INTER_LINEAR);
+  if (rectified_images_.getNumSubscribers() > 0) rectified_images_.publish(rectified_);
+  if (paired_images_.getNumSubscribers() > 0) {
+    sensor_msgs::CameraInfo straight = info;
+    std::fill(straight.D.begin(), straight.D.end(), 0.0);
+    paired_infos_.publish(straight);
+    paired_images_.publish(rectified_);
+  }
+  rectification_trouble_.tell("");
+}
+
+void TestCard::Trouble::tell(const std::string& now) {
+  if (now == told) return;
+  told = now;
+  if (!now.empty()) ROS_WARN_STREAM("test card: " << now);
+}
+
+}  // namespace trk_bridge::demo

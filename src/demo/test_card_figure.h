@@ -1,0 +1,41 @@
+// What is on the test card: grids on the studio's floor and on a wall behind it, and the points where their lines
+// cross.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace trk_bridge::demo {
+
+/// Where the card is in the studio and how large, metres. The wall is parallel to the studio's x axis and faces it.
+struct Place {
+  double x = 0, y = 12;  ///< the middle of the wall's foot on the floor
+  double width = 16;     ///< of wall and floor
+  double depth = 12;     ///< of the floor, from the wall towards smaller y
+  double height = 5;     ///< of the wall
+  double spacing = 1;    ///< of the lines; only whole cells are drawn
+};
+
+/// More lines than this across the floor or the wall are refused by whoever reads a Place.
+inline constexpr int most_cells = 100;
+
+struct Line {
+  Eigen::Vector3d from, to;
+};
+
+struct Point {
+  Eigen::Vector3d place;
+  std::string label;  ///< its x, y and z in metres; empty for most of them
+};
+
+/// All in the studio frame, metres.
+struct Figure {
+  std::vector<Line> floor, wall;  ///< their common line is the floor's
+  std::vector<Point> points;
+};
+
+Figure figure_at(const Place&);
+
+}  // namespace trk_bridge::demo

@@ -1,0 +1,6 @@
+#include "nodes/node_main.h"
+#include "test_card.h"
+
+int main(int argc, char** argv) {
+  return trk_bridge::nodes::node_main<trk_bridge::demo::TestCard>(argc, argv, "test_card");
+}

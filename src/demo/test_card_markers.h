@@ -1,0 +1,15 @@
+// The test card in the studio, for rviz.
+#pragma once
+
+#include <string>
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include "test_card_figure.h"
+
+namespace trk_bridge::demo {
+
+/// Namespaces `floor`, `wall`, `points` and `labels`, valid at any time.
+visualization_msgs::MarkerArray markers_of(const Figure&, const std::string& studio_frame);
+
+}  // namespace trk_bridge::demo

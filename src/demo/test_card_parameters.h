@@ -1,0 +1,21 @@
+// The parameters of test_card.
+#pragma once
+
+#include <string>
+
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include "test_card_figure.h"
+
+namespace trk_bridge::demo {
+
+struct Parameters {
+  double rate = 25;  ///< images a second at most, Hz
+  std::string studio_frame = "studio", optical_frame;
+  Place place;
+};
+
+/// From a node's private parameters; `camera` is its camera's name. Throws ros1::ParameterError with every fault.
+Parameters read_parameters(const XmlRpc::XmlRpcValue& tree, const std::string& camera);
+
+}  // namespace trk_bridge::demo

@@ -1,0 +1,144 @@
+#include "trk_bridge/endpoints/endpoints.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "file/scheme.h"
+#include "presets.h"
+#include "shm/scheme.h"
+#include "transport/scheme.h"
+#include "trk/udp.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::endpoints {
+namespace {
+
+using transport::Scheme;
+using transport::SinkEndpoint;
+using transport::SinkForm;
+using transport::SourceEndpoint;
+using transport::TransportError;
+using transport::Url;
+
+/// Every scheme there is.
+constexpr std::array<const Scheme*, 3> schemes{&trk::udp_scheme, &shm::scheme, &file::scheme};
+
+std::string listed(std::string_view Scheme::*what) {
+  std::string text;
+  for (std::size_t i = 0; i < schemes.size(); ++i) {
+    text += i == 0 ? "" : i + 1 == schemes.size() ? " and " : ", ";
+    text += schemes[i]->*what;
+  }
+  return text;
+}
+
+struct Parsed {
+  Url url;
+  const Scheme* scheme;
+};
+
+tl::expected<Parsed, std::string> parsed(std::string_view text) {
+  auto url = transport::split_url(text);
+  if (!url) return tl::make_unexpected(url.error());
+  const auto scheme = std::find_if(schemes.begin(), schemes.end(), [&](const Scheme* s) { return s->name == url->scheme; });
+  if (scheme == schemes.end()) {
+    const std::string given = url->scheme.empty() ? std::string("no scheme") : "scheme \"" + url->scheme + "\"";
+    return tl::make_unexpected(given + ": allowed are " + listed(&Scheme::usage));
+  }
+  return Parsed{*std::move(url), *scheme};
+}
+
+tl::expected<std::uint32_t, std::string> format_from(std::string words) {
+  // Spaces are not at home in URLs.
+  std::replace_if(words.begin(), words.end(), [](char c) { return c == ',' || c == '+'; }, ' ');
+  const auto format = wire::format_from_words(words);
+  if (!format) return tl::make_unexpected(format.error());
+  if (const auto writable = wire::check_writable(*format); !writable) return tl::make_unexpected(writable.error());
+  return *format;
+}
+
+/// Takes the options of every sink out of the URL.
+tl::expected<SinkForm, std::string> take_form(Url& url) {
+  const auto take = [&url](std::string_view key) -> std::optional<std::string> {
+    const auto option = std::find_if(url.options.begin(), url.options.end(), [&](const auto& o) { return o.key == key; });
+    if (option == url.options.end()) return std::nullopt;
+    std::string value = std::move(option->value);
+    url.options.erase(option);
+    return value;
+  };
+  const auto words = take("format"), preset_name = take("preset"), id = take("id");
+  SinkForm form;
+  if (words && preset_name) {
+    return tl::make_unexpected("option preset = \"" + *preset_name + "\": must not be given with format, which it stands for");
+  }
+  if (words) {
+    const auto format = format_from(*words);
+    if (!format) return tl::make_unexpected("option format = \"" + *words + "\": " + format.error());
+    form.format = *format;
+  }
+  if (preset_name) {
+    const auto preset = find_preset(*preset_name);
+    if (!preset) return tl::make_unexpected("option preset: " + preset.error());
+    form.format = preset->format;
+    form.sends_id = preset->sends_id;
+  }
+  if (id) {
+    constexpr std::uint32_t largest = std::numeric_limits<std::uint32_t>::max();
+    form.id = transport::whole_number<std::uint32_t>(*id, 0, largest);
+    if (!form.id) {
+      return tl::make_unexpected("option id = \"" + *id + "\": allowed are whole numbers from 0 to " + std::to_string(largest));
+    }
+    if (!form.sends_id && *form.id != 0) {
+      return tl::make_unexpected("option id = \"" + *id + "\": the preset " + *preset_name + " sends no id; only 0 is allowed");
+    }
+  }
+  return form;
+}
+
+template <typename Endpoint>
+tl::expected<Endpoint, std::string> located(std::string_view url, tl::expected<Endpoint, std::string> endpoint) {
+  if (!endpoint) return tl::make_unexpected("endpoint \"" + std::string(url) + "\": " + endpoint.error());
+  endpoint->url = url;
+  return endpoint;
+}
+
+tl::expected<SinkEndpoint, std::string> sink_endpoint(std::string_view text) {
+  auto url = parsed(text);
+  if (!url) return tl::make_unexpected(url.error());
+  const auto form = take_form(url->url);
+  if (!form) return tl::make_unexpected(form.error());
+  auto endpoint = url->scheme->sink(url->url);
+  if (endpoint) endpoint->form = *form;
+  return endpoint;
+}
+
+tl::expected<SourceEndpoint, std::string> source_endpoint(std::string_view text) {
+  const auto url = parsed(text);
+  if (!url) return tl::make_unexpected(url.error());
+  return url->scheme->source(url->url);
+}
+
+}  // namespace
+
+tl::expected<SourceEndpoint, std::string> parse_source(std::string_view url) {
+  return located(url, source_endpoint(url));
+}
+
+tl::expected<SinkEndpoint, std::string> parse_sink(std::string_view url) { return located(url, sink_endpoint(url)); }
+
+std::unique_ptr<transport::Source> open_source(std::string_view url, double field_rate) {
+  const auto endpoint = parse_source(url);
+  if (!endpoint) throw TransportError(endpoint.error());
+  return endpoint->open(field_rate);
+}
+
+std::unique_ptr<transport::Sink> open_sink(std::string_view url) {
+  const auto endpoint = parse_sink(url);
+  if (!endpoint) throw TransportError(endpoint.error());
+  return endpoint->open();
+}
+
+}  // namespace trk_bridge::endpoints

@@ -1,0 +1,102 @@
+#include "scheme.h"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "base/time_text.h"
+
+namespace trk_bridge::file {
+namespace {
+
+using transport::assign;
+using transport::assign_switch;
+using transport::Direction;
+using transport::Option;
+using transport::real_number;
+
+constexpr std::array<Option<SourceSettings>, 5> source_options{{
+    {"rate", "fields a second from 0.001 to 100000",
+     [](const std::string& v, SourceSettings& s) { return assign(real_number(v, 1e-3, 1e5), s.rate); }},
+    {"speed", "0 (as fast as possible) and a factor from 0.001 to 1000",
+     [](const std::string& v, SourceSettings& s) {
+       return assign(real_number(v, 0.0, 1e3), s.speed) && (s.speed == 0.0 || s.speed >= 1e-3);
+     }},
+    {"loop", transport::switch_allowed,
+     [](const std::string& v, SourceSettings& s) { return assign_switch(v, s.loop); }},
+    {"time", "timecode and now",
+     [](const std::string& v, SourceSettings& s) {
+       s.time = v == "now" ? FileTime::now : FileTime::timecode;
+       return v == "now" || v == "timecode";
+     }},
+    {"date", "a day of the calendar from 1970 on as YYYY-MM-DD",
+     [](const std::string& v, SourceSettings& s) { return (s.date = base::day_from_text(v)).has_value(); }},
+}};
+
+constexpr std::array<Option<SinkSettings>, 2> sink_options{{
+    {"timecode", "HH:MM:SS:FF:D, D being 1 or 2",
+     [](const std::string& v, SinkSettings& s) {
+       const auto code = base::parse_time_code(v);
+       if (code) s.time_code = *code;
+       return code.has_value();
+     }},
+    {"overwrite", transport::switch_allowed,
+     [](const std::string& v, SinkSettings& s) { return assign_switch(v, s.overwrite); }},
+}};
+
+tl::expected<std::string, std::string> path_of(const transport::Url& url) {
+  std::string_view place = url.place;
+  if (place.substr(0, 2) == "//") {
+    place.remove_prefix(2);
+    if (place.empty() || place.front() != '/') {
+      return tl::make_unexpected("\"" + url.place + "\": file:PATH and file:///PATH are allowed, a host is not");
+    }
+  }
+  auto path = transport::percent_decoded(place);
+  if (!path) return tl::make_unexpected("path = " + path.error());
+  if (path->empty()) return tl::make_unexpected(std::string("no path: file:PATH is allowed"));
+  return path;
+}
+
+template <typename Settings, typename Table, typename OtherTable>
+tl::expected<Settings, std::string> settings_of(const transport::Url& url, Direction direction, const Table& options,
+                                                const OtherTable& other_way) {
+  auto path = path_of(url);
+  if (!path) return tl::make_unexpected(path.error());
+  Settings settings;
+  settings.path = *std::move(path);
+  const auto set = transport::set_options(url, direction, settings, transport::keys_of(other_way), options);
+  if (!set) return tl::make_unexpected(set.error());
+  return settings;
+}
+
+}  // namespace
+
+tl::expected<SourceSettings, std::string> source_settings(const transport::Url& url) {
+  return settings_of<SourceSettings>(url, Direction::read, source_options, sink_options);
+}
+
+tl::expected<SinkSettings, std::string> sink_settings(const transport::Url& url) {
+  return settings_of<SinkSettings>(url, Direction::write, sink_options, source_options);
+}
+
+const transport::Scheme scheme{
+    "file", "file:PATH",
+    [](const transport::Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
+      auto settings = source_settings(url);
+      if (!settings) return tl::make_unexpected(settings.error());
+      transport::SourceEndpoint endpoint;
+      endpoint.place = "file:" + settings->path;
+      endpoint.open = [settings = *settings](double field_rate) { return open_source(settings, field_rate); };
+      return endpoint;
+    },
+    [](const transport::Url& url) -> tl::expected<transport::SinkEndpoint, std::string> {
+      auto settings = sink_settings(url);
+      if (!settings) return tl::make_unexpected(settings.error());
+      transport::SinkEndpoint endpoint;
+      endpoint.blocking = transport::Blocking::storage;
+      endpoint.open = [settings = *settings] { return open_sink(settings); };
+      return endpoint;
+    }};
+
+}  // namespace trk_bridge::file

@@ -1,0 +1,49 @@
+// Takes: the scheme file.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "transport/scheme.h"
+#include "trk_bridge/base/time_code.h"
+
+namespace trk_bridge::file {
+
+/// Time of the samples of a file.
+enum class FileTime : std::uint8_t {
+  timecode,  ///< the time code of the first field on `date`, plus the fields since
+  now,       ///< the moment a sample is handed out
+};
+
+/// `file:PATH?rate=…&speed=…&loop=1&time=…&date=…`, to play a take.
+struct SourceSettings {
+  std::string path;
+  std::optional<double> rate;          ///< Hz, 0.001 to 100000: video fields a second
+  double speed = 1.0;                  ///< 0.001 to 1000; 0: as fast as possible
+  bool loop = false;
+  FileTime time = FileTime::timecode;
+  std::optional<std::int64_t> date;    ///< midnight UTC, seconds since 1970; default the day of opening
+};
+
+/// `file:PATH?timecode=…&overwrite=1`, to record a take.
+struct SinkSettings {
+  std::string path;
+  base::TimeCode time_code;  ///< of the first field
+  bool overwrite = false;
+};
+
+/// Errors name the part of the URL, its value and what is allowed.
+tl::expected<SourceSettings, std::string> source_settings(const transport::Url&);
+tl::expected<SinkSettings, std::string> sink_settings(const transport::Url&);
+
+/// Throw TransportError. `field_rate` (Hz) counts where the settings have no `rate`.
+std::unique_ptr<transport::Source> open_source(const SourceSettings&, double field_rate);
+std::unique_ptr<transport::Sink> open_sink(const SinkSettings&);
+
+extern const transport::Scheme scheme;
+
+}  // namespace trk_bridge::file

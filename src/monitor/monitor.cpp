@@ -1,0 +1,112 @@
+#include "monitor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ostream>
+
+#include <unistd.h>
+
+#include "cli/checked_output.h"
+#include "cli/listen.h"
+#include "monitor_model.h"
+#include "monitor_view.h"
+#include "base/time_text.h"
+#include "screen.h"
+#include "cli/stop_signals.h"
+
+namespace trk_bridge::monitor {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double screen_period = 0.1;  // s
+constexpr double lines_period = 1.0;   // s
+
+/// The model, fed from a source for as long as the user wants.
+class Watch final : public cli::Listener {
+ public:
+  Watch(transport::Source& source, const MonitorOptions& options)
+      : source_(source), options_(options), begin_(Clock::now()) {}
+
+  bool on_sample(const transport::Sample& sample) override {
+    model_.add(sample, Clock::now());
+    return true;
+  }
+  void on_malformed(const transport::Reception& reception) override { model_.add_malformed(reception, Clock::now()); }
+
+  /// Listens for `period` seconds, less when the time limit is nearer. Whether there is more to come.
+  bool go_on(double period) {
+    ending_ = cli::listen(source_, *this, std::min(period, std::max(0.0, left())));
+    return ending_ == cli::Ending::enough && left() > 0;
+  }
+  /// To the end of the time limit, in seconds.
+  double left() const {
+    const double passed = std::chrono::duration<double>(Clock::now() - begin_).count();
+    return options_.seconds.value_or(passed + 1e9) - passed;
+  }
+  bool has_ended() const { return ending_ == cli::Ending::ended; }
+  MonitorState state() const { return model_.state(Clock::now(), source_); }
+
+  cli::ExitCode finish(std::ostream& err) const {
+    const auto statistics = source_.statistics();
+    model_.tally().summarise(statistics, err);
+    if (ending_ != cli::Ending::failed) return cli::exit_good;
+    err << "trk: error: " << statistics.error << '\n';
+    return cli::exit_failed;
+  }
+
+ private:
+  transport::Source& source_;
+  const MonitorOptions options_;
+  const Clock::time_point begin_;
+  MonitorModel model_;
+  cli::Ending ending_ = cli::Ending::enough;
+};
+
+/// What is shown stays until the user has seen it.
+void stay(Screen& screen, const Watch& watch) {
+  const std::chrono::milliseconds wait(static_cast<int>(screen_period * 1000));
+  while (!cli::StopSignals::stopped() && watch.left() > 0 && screen.key(wait) != Screen::Key::quit) {
+    screen.show(screen_of(watch.state(), screen.size()));
+  }
+}
+
+void watch_on_screen(Watch& watch) {
+  Screen screen;
+  do {
+    for (auto key = screen.key({}); key != Screen::Key::none; key = screen.key({})) {
+      if (key == Screen::Key::quit) return;
+    }
+    screen.show(screen_of(watch.state(), screen.size()));
+  } while (watch.go_on(screen_period));
+  // Nobody could end it by a key otherwise.
+  if (watch.has_ended() && ::isatty(STDIN_FILENO) != 0) stay(screen, watch);
+}
+
+}  // namespace
+
+cli::ExitCode monitor_on_screen(transport::Source& source, const MonitorOptions& options, std::ostream& err) {
+  Watch watch(source, options);
+  watch_on_screen(watch);
+  return watch.finish(err);
+}
+
+cli::ExitCode monitor_in_lines(transport::Source& source, const MonitorOptions& options, std::ostream& out,
+                          std::ostream& err) {
+  Watch watch(source, options);
+  cli::CheckedOutput lines(out);
+  bool is_wanted = true;
+  for (bool has_more = true; has_more && is_wanted;) {
+    has_more = watch.go_on(lines_period);
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const std::string time = base::iso_time(std::chrono::nanoseconds(now).count());
+    for (const auto& line : plain_lines_of(watch.state(), lines_period)) {
+      is_wanted = lines.line(time + "  " + line, true) && is_wanted;
+    }
+  }
+  const cli::ExitCode written = lines.finish(err);
+  const cli::ExitCode watched = watch.finish(err);
+  return written != cli::exit_good ? written : watched;
+}
+
+}  // namespace trk_bridge::monitor

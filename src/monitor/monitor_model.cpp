@@ -1,0 +1,100 @@
+#include "monitor_model.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::monitor {
+namespace {
+
+constexpr double silent_after = 1.0;            // s
+constexpr double silent_after_intervals = 3.0;  // for what comes more slowly than three times a second
+
+double seconds_between(MonitorModel::Time from, MonitorModel::Time to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+camera::Result<double> horizontal_angle(const camera::Lens& lens, const wire::CameraConstants* constants) {
+  camera::Camera camera;
+  camera.lens = lens;
+  const auto told = camera::encode(camera, wire::euler | wire::field_of_view, constants);
+  if (!told) return tl::unexpected(told.error());
+  return told->fov;
+}
+
+}  // namespace
+
+void MonitorModel::add(const transport::Sample& sample, Time now) {
+  const auto order = tally_.add(sample);
+  const cli::Tally::Key key{std::visit([](const auto& record) { return record.id; }, sample.record), sample.sender};
+  auto track = tracks_.find(key);
+  if (track == tracks_.end()) {
+    if (tracks_.size() == cli::Tally::most_cameras) {
+      ++not_shown_;
+      return;
+    }
+    track = tracks_.try_emplace(key).first;
+  }
+  if (const auto* constants = std::get_if<wire::CameraConstants>(&sample.record)) {
+    track->second.constants = *constants;
+  } else if (order && base::is_new(*order)) {
+    take(track->second, sample, std::get<wire::CameraParams>(sample.record), now);
+  }
+}
+
+void MonitorModel::take(Track& track, const transport::Sample& sample, const wire::CameraParams& params, Time now) {
+  track.latest = Latest{params, sample.origin, now};
+  track.arrivals.add(sample.arrival);
+  if (const auto pose = camera::decode_pose(params)) {
+    const auto angles = camera::pan_tilt_roll(pose->linear());
+    const auto& at = pose->translation();
+    track.poses.add(sample.arrival, {at.x(), at.y(), at.z(), angles.pan, angles.tilt, angles.roll});
+  }
+}
+
+void MonitorModel::add_malformed(const transport::Reception& reception, Time now) {
+  malformed_ = Malformed{reception.fault, reception.sample.sender, now};
+}
+
+MonitorState MonitorModel::state(Time now, const transport::Source& source) const {
+  MonitorState state;
+  state.source_name = source.name();
+  state.source = source.statistics();
+  state.not_shown = not_shown_;
+  if (malformed_) {
+    state.malformed = MalformedState{malformed_->fault, malformed_->sender, seconds_between(malformed_->came, now)};
+  }
+  for (const auto& [key, track] : tracks_) state.cameras.push_back(state_of(key, track, now));
+  std::stable_partition(state.cameras.begin(), state.cameras.end(),
+                        [](const CameraState& camera) { return camera.latest && !camera.latest->is_silent; });
+  return state;
+}
+
+CameraState MonitorModel::state_of(const cli::Tally::Key& key, const Track& track, Time now) const {
+  CameraState state;
+  state.key = key;
+  state.constants = track.constants;
+  if (!track.latest) return state;
+  state.counts = tally_.cameras().at(key).counts();
+  state.rate = track.arrivals.rate();
+  state.jitter = track.arrivals.jitter();
+  state.rest = track.poses.judge();
+
+  const auto* constants = track.constants ? &*track.constants : nullptr;
+  const auto& params = track.latest->params;
+  const auto lens = camera::decode_lens(params, constants);
+  const auto angle = lens ? horizontal_angle(*lens, constants) : tl::unexpected(lens.error());
+  const double age = seconds_between(track.latest->came, now);
+  const double interval = state.jitter ? static_cast<double>(state.jitter->interval) * 1e-9 : 0;
+  state.latest = ParamsState{params,
+                             track.latest->origin,
+                             camera::decode_pose(params),
+                             lens,
+                             angle,
+                             age,
+                             age > std::max(silent_after, silent_after_intervals * interval)};
+  return state;
+}
+
+}  // namespace trk_bridge::monitor

@@ -1,6 +1,0 @@
-#include "node_main.h"
-#include "test_card.h"
-
-int main(int argc, char** argv) {
-  return trk_bridge::nodes::node_main<trk_bridge::nodes::TestCard>(argc, argv, "test_card");
-}

@@ -1,0 +1,32 @@
+// trk in shared memory: the scheme shm.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "transport/scheme.h"
+#include "trk_bridge/wire/layout.h"
+
+namespace trk_bridge::shm {
+
+/// `shm:SLOT?layout=…&mode=…&recreate=1`, slots 0 to 61. The options are for writing.
+struct Settings {
+  int slot = 0;
+  wire::LayoutChoice layout;  ///< of a segment that is created; what is not given is the document's, LP64
+  int mode = 0666;            ///< permissions of a segment that is created, to 0777
+  bool recreate = false;      ///< the document's trkMemRecreate
+};
+
+/// Errors name the part of the URL, its value and what is allowed.
+tl::expected<Settings, std::string> source_settings(const transport::Url&);
+tl::expected<Settings, std::string> sink_settings(const transport::Url&);
+
+/// Throw TransportError. A slot without a segment is no error for reading.
+std::unique_ptr<transport::Source> open_source(const Settings&);
+std::unique_ptr<transport::Sink> open_sink(const Settings&);
+
+extern const transport::Scheme scheme;
+
+}  // namespace trk_bridge::shm

@@ -1,0 +1,123 @@
+#include "datagram_options.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace trk_bridge::transport {
+namespace {
+
+constexpr std::string_view interface_allowed = "an address of this machine or an interface's name";
+
+bool assign_hosts(const std::string& value, std::vector<std::string>& to) {
+  for (std::size_t begin = 0; begin <= value.size();) {
+    const std::size_t end = std::min(value.find(',', begin), value.size());
+    if (end == begin) return false;
+    std::string host = value.substr(begin, end - begin);
+    // As in a URL's host, an IPv6 address may stand in brackets.
+    if (host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+    if (host.empty()) return false;
+    to.push_back(std::move(host));
+    begin = end + 1;
+  }
+  return true;
+}
+
+struct HostAndPort {
+  std::string_view host, port;
+  bool has_port = false;
+};
+
+tl::expected<HostAndPort, std::string> split_host(std::string_view place) {
+  const bool bracketed = !place.empty() && place.front() == '[';
+  const std::size_t host_end = bracketed ? place.find(']') : std::min(place.find(':'), place.size());
+  if (host_end == std::string_view::npos) {
+    return tl::make_unexpected("host \"" + std::string(place) + "\" has a [ without ]");
+  }
+  HostAndPort parts;
+  parts.host = bracketed ? place.substr(1, host_end - 1) : place.substr(0, host_end);
+  const std::string_view rest = place.substr(bracketed ? host_end + 1 : host_end);
+  parts.has_port = !rest.empty() && rest.front() == ':';
+  if (parts.has_port) parts.port = rest.substr(1);
+  if (parts.port.find(':') != std::string_view::npos) {
+    return tl::make_unexpected("host \"" + std::string(place) + "\": an IPv6 address stands in [ ], as in [::1]:7000");
+  }
+  const std::string_view beyond = parts.has_port ? std::string_view{} : rest;
+  if (parts.host.find_first_of("/ []") != std::string_view::npos || !beyond.empty()) {
+    return tl::make_unexpected("host \"" + std::string(place) +
+                               "\": a name, an IPv4 address or [an IPv6 address] and " +
+                               "nothing behind the port is allowed");
+  }
+  return parts;
+}
+
+struct Place {
+  std::string host;
+  std::uint16_t port = 0;
+};
+
+tl::expected<Place, std::string> place_in(const Url& url, Direction direction) {
+  if (url.place.compare(0, 2, "//") != 0) {
+    return tl::make_unexpected("\"" + url.place + "\": " + url.scheme + "://HOST:PORT is allowed");
+  }
+  const auto parts = split_host(std::string_view(url.place).substr(2));
+  if (!parts) return tl::make_unexpected(parts.error());
+  const auto host = percent_decoded(parts->host);
+  if (!host) return tl::make_unexpected("host = " + host.error());
+  if (host->empty() && direction == Direction::write) {
+    return tl::make_unexpected("no host: writing needs the one to send to, as in " + url.scheme +
+                               "://192.0.2.7:7000");
+  }
+  if (!parts->has_port) {
+    return tl::make_unexpected("no port: there is no standard one, so it must be given (" + url.scheme +
+                               "://HOST:PORT)");
+  }
+  const int lowest = direction == Direction::read ? 0 : 1;
+  const auto port = whole_number(parts->port, lowest, 65535);
+  if (!port) {
+    return tl::make_unexpected("port = \"" + std::string(parts->port) + "\": allowed for " +
+                               (direction == Direction::read ? "reading" : "writing") + " is a whole number from " +
+                               std::to_string(lowest) + " to 65535");
+  }
+  return Place{*host, static_cast<std::uint16_t>(*port)};
+}
+
+template <typename Settings>
+tl::expected<void, std::string> take_place(const Url& url, Direction direction, Settings& settings) {
+  auto place = place_in(url, direction);
+  if (!place) return tl::make_unexpected(place.error());
+  settings.host = std::move(place->host);
+  settings.port = place->port;
+  return {};
+}
+
+}  // namespace
+
+const std::array<Option<ReceiveSettings>, 3> receive_options{{
+    {"allow", "addresses with a comma between",
+     [](const std::string& v, ReceiveSettings& s) { return assign_hosts(v, s.allow); }},
+    {"interface", interface_allowed,
+     [](const std::string& v, ReceiveSettings& s) { return !(s.interface = v).empty(); }},
+    {"buffer", "bytes from 1 to 1073741823",
+     [](const std::string& v, ReceiveSettings& s) { return assign(whole_number(v, 1, 1073741823), s.buffer); }},
+}};
+
+const std::array<Option<SendSettings>, 3> send_options{{
+    {"interface", interface_allowed, [](const std::string& v, SendSettings& s) { return !(s.interface = v).empty(); }},
+    {"ttl", "a whole number from 0 to 255",
+     [](const std::string& v, SendSettings& s) { return assign(whole_number(v, 0, 255), s.ttl); }},
+    {"constants_period", "seconds from 0 to 86400",
+     [](const std::string& v, SendSettings& s) { return assign(real_number(v, 0.0, 86400.0), s.constants_period); }},
+}};
+
+tl::expected<void, std::string> set_place(const Url& url, ReceiveSettings& settings) {
+  return take_place(url, Direction::read, settings);
+}
+
+tl::expected<void, std::string> set_place(const Url& url, SendSettings& settings) {
+  return take_place(url, Direction::write, settings);
+}
+
+std::string place_of(const ReceiveSettings& settings) { return udp_url(settings.host, settings.port); }
+
+}  // namespace trk_bridge::transport

@@ -1,0 +1,164 @@
+#include "datagram_sink.h"
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <chrono>
+#include <system_error>
+#include <unordered_map>
+#include <utility>
+
+#include "descriptor.h"
+#include "multicast.h"
+#include "socket_address.h"
+#include "socket_option.h"
+#include "trk_bridge/transport/source.h"
+#include "url.h"
+
+namespace trk_bridge::transport {
+namespace {
+
+using std::chrono::steady_clock;
+
+void set_ttl(int fd, const SocketAddress& target, int ttl) {
+  const bool group = is_multicast(target);
+  if (target.family() == AF_INET) {
+    set_option(fd, IPPROTO_IP, group ? IP_MULTICAST_TTL : IP_TTL, ttl, "ttl");
+  } else {
+    set_option(fd, IPPROTO_IPV6, group ? IPV6_MULTICAST_HOPS : IPV6_UNICAST_HOPS, ttl, "ttl");
+  }
+}
+
+Descriptor open_socket_to(const SocketAddress& target, const SendSettings& settings) {
+  Descriptor socket(::socket(target.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!socket.is_open()) throw TransportError("no socket: " + std::generic_category().message(errno));
+  const int fd = socket.get();
+  if (is_broadcast(target)) set_option(fd, SOL_SOCKET, SO_BROADCAST, 1, "broadcast");
+  if (settings.ttl) set_ttl(fd, target, *settings.ttl);
+  const bool group = is_multicast(target);
+  if (group && target.family() == AF_INET)
+    set_option(fd, IPPROTO_IP, IP_MULTICAST_LOOP, 1, "multicast to this machine");
+  if (group && target.family() == AF_INET6) {
+    set_option(fd, IPPROTO_IPV6, IPV6_MULTICAST_LOOP, 1, "multicast to this machine");
+  }
+  if (settings.interface.empty()) return socket;
+  if (!group) {
+    throw TransportError("interface = \"" + settings.interface +
+                         "\" is for multicast: to one address the system's routes lead");
+  }
+  send_through(fd, target.family(), find_interface(settings.interface));
+  return socket;
+}
+
+SocketAddress target_of(const SendSettings& settings) {
+  const SocketAddress target = resolve(settings.host, settings.port).front();
+  if (is_any(target)) throw TransportError("host \"" + settings.host + "\" is no address to send to");
+  if (settings.port == 0) throw TransportError("port = 0: allowed for writing is a whole number from 1 to 65535");
+  return target;
+}
+
+steady_clock::duration period_of(const SendSettings& settings) {
+  const double seconds = settings.constants_period;
+  if (!(seconds >= 0.0 && seconds <= 86400.0)) {
+    throw TransportError("constants_period = " + std::to_string(seconds) + ": allowed are seconds from 0 to 86400");
+  }
+  return std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+class DatagramSink final : public Sink {
+ public:
+  DatagramSink(const SendSettings& settings, std::unique_ptr<Encoder> encoder)
+      : target_(target_of(settings)),
+        socket_(open_socket_to(target_, settings)),
+        name_("udp to " + to_string(sender_of(target_.storage))),
+        encoder_(std::move(encoder)),
+        period_(period_of(settings)) {}
+
+  std::string name() const override { return name_; }
+
+ private:
+  /// The constants of one camera.
+  struct Remembered {
+    wire::CameraConstants constants;
+    steady_clock::time_point last_sent{};
+  };
+
+  Written put(const wire::CameraParams& params) override;
+  Written put(const wire::CameraConstants& constants) override;
+  Written finish() override {
+    socket_.close();
+    return {};
+  }
+  template <typename Record>
+  Written send(const Record& record) noexcept;
+  Written send_datagram(std::string_view datagram) noexcept;
+
+  const SocketAddress target_;
+  Descriptor socket_;
+  const std::string name_;
+  std::unique_ptr<Encoder> encoder_;
+  const steady_clock::duration period_;
+  std::unordered_map<std::uint32_t, Remembered> remembered_;  // by id
+};
+
+Written DatagramSink::send_datagram(std::string_view datagram) noexcept {
+  ssize_t written;
+  do {
+    // The socket is not connected: a receiver that is not there is none of a later datagram's concern.
+    written = ::sendto(socket_.get(), datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL, target_.get(),
+                       target_.length);
+  } while (written < 0 && errno == EINTR);
+  if (written < 0) return tl::make_unexpected(SinkFault{SinkReason::system, {}, errno});
+  return {};
+}
+
+template <typename Record>
+Written DatagramSink::send(const Record& record) noexcept {
+  if (const auto begun = encoder_->begin(record); !begun) {
+    return tl::make_unexpected(SinkFault{SinkReason::not_encodable, begun.error()});
+  }
+  while (const auto datagram = encoder_->next()) {
+    if (auto sent = send_datagram(*datagram); !sent) return sent;
+  }
+  return {};
+}
+
+Written DatagramSink::put(const wire::CameraParams& params) {
+  Written constants_sent;
+  if (const auto found = remembered_.find(params.id); found != remembered_.end()) {
+    Remembered& remembered = found->second;
+    const auto now = steady_clock::now();
+    if (period_ > steady_clock::duration::zero() && now - remembered.last_sent >= period_) {
+      constants_sent = send(remembered.constants);
+      if (constants_sent) {
+        remembered.last_sent = now;
+        count_constants();
+      }
+    }
+  }
+  const Written params_sent = send(params);
+  return params_sent ? constants_sent : params_sent;
+}
+
+Written DatagramSink::put(const wire::CameraConstants& constants) {
+  const Written sent = send(constants);
+  // What can never go out is not worth repeating.
+  if (!sent && sent.error().reason == SinkReason::not_encodable) return sent;
+  Remembered& remembered = remembered_[constants.id];
+  remembered.constants = constants;
+  if (sent) remembered.last_sent = steady_clock::now();
+  return sent;
+}
+
+}  // namespace
+
+std::unique_ptr<Sink> open_datagram_sink(const SendSettings& settings, std::unique_ptr<Encoder> encoder) {
+  try {
+    return std::make_unique<DatagramSink>(settings, std::move(encoder));
+  } catch (const TransportError& error) {
+    throw TransportError(udp_url(settings.host, settings.port) + ": " + error.what());
+  }
+}
+
+}  // namespace trk_bridge::transport

@@ -1,0 +1,88 @@
+// A UDP port that datagrams are read from.
+#pragma once
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "descriptor.h"
+#include "socket_address.h"
+#include "trk_bridge/wire/codec.h"
+
+namespace trk_bridge::transport {
+
+/// Where to listen.
+///
+/// The host is an address of this machine, a multicast group, which is joined, or a broadcast address. Empty and `::`
+/// stand for every interface and both families, `0.0.0.0` for every interface and IPv4 alone. Several readers share a
+/// group or a broadcast address and each gets every datagram; the kernel gives a datagram to one address to one reader
+/// only, so that a second reader elsewhere is refused.
+struct ReceiveSettings {
+  std::string host;        ///< IPv6 without its brackets; a name is looked up at opening, IPv4 before IPv6
+  std::uint16_t port = 0;  ///< 0: the kernel picks one, name() has it
+  /// An address of this machine or an interface's name, for groups. Empty: every interface that is up at opening and
+  /// can do multicast, and the loopback.
+  std::string interface;
+  std::vector<std::string> allow;  ///< senders accepted; empty: all
+  /// The kernel's receive buffer in bytes, 1 to 1073741823. Opening fails when the kernel grants less.
+  std::optional<int> buffer;
+};
+
+/// Bound from construction to destruction. One thread at a time but for kernel_drops(); reading allocates nothing.
+class ReceiveSocket {
+ public:
+  /// Throws TransportError.
+  explicit ReceiveSocket(const ReceiveSettings&);
+  ReceiveSocket(const ReceiveSocket&) = delete;
+  ReceiveSocket& operator=(const ReceiveSocket&) = delete;
+
+  /// "udp port 7000 on every interface".
+  const std::string& name() const noexcept { return name_; }
+  std::uint16_t port() const noexcept { return port_; }
+  int fd() const noexcept { return socket_.get(); }
+  /// Datagrams that the kernel threw away so far because nobody read in time. Any thread.
+  std::uint64_t kernel_drops() const noexcept;
+
+  /// One datagram.
+  struct Datagram {
+    std::string_view bytes;
+    bool was_longer = false;  ///< than wire::max_datagram; `bytes` are its beginning
+    Sender sender;
+    bool is_allowed = true;    ///< the sender
+    std::int64_t arrival = 0;  ///< ns since 1970 UTC: the kernel's stamp
+  };
+  /// The next datagram that is there, without waiting; its bytes stay until the next call. None when nothing is there
+  /// or, with errno in `error`, the system refused.
+  std::optional<Datagram> next(int& error) noexcept;
+
+ private:
+  static constexpr std::size_t batch = 32;  // datagrams that one system call takes
+  struct Control {
+    alignas(cmsghdr) char data[CMSG_SPACE(sizeof(timespec))];
+  };
+
+  int fill() noexcept;
+  std::int64_t arrival(std::size_t i) noexcept;
+  bool is_allowed(const Sender&) const noexcept;
+
+  Descriptor socket_;
+  std::string name_;
+  std::uint16_t port_ = 0;
+  std::vector<Sender> allowed_;
+
+  std::size_t next_ = 0, count_ = 0;
+  std::array<mmsghdr, batch> headers_{};
+  std::array<iovec, batch> parts_{};
+  std::array<sockaddr_storage, batch> senders_{};
+  std::array<Control, batch> controls_{};
+  std::array<wire::Buffer, batch> data_{};
+};
+
+}  // namespace trk_bridge::transport

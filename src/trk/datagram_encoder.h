@@ -1,0 +1,41 @@
+// Records to trk's datagrams.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "transport/encoder.h"
+#include "trk_bridge/wire/codec.h"
+
+namespace trk_bridge::trk {
+
+/// One datagram a record.
+class DatagramEncoder final : public transport::Encoder {
+ public:
+  explicit DatagramEncoder(const wire::WireForm& form) : form_(form) {}
+
+  tl::expected<void, transport::Fault> begin(const wire::CameraParams& params) noexcept override {
+    return encode(params);
+  }
+  tl::expected<void, transport::Fault> begin(const wire::CameraConstants& constants) noexcept override {
+    return encode(constants);
+  }
+  std::optional<std::string_view> next() noexcept override { return std::exchange(datagram_, std::nullopt); }
+
+ private:
+  template <typename Record>
+  tl::expected<void, transport::Fault> encode(const Record& record) noexcept {
+    datagram_.reset();
+    const auto encoded = wire::encode(record, form_, buffer_);
+    if (!encoded) return tl::make_unexpected(transport::Fault(encoded.error()));
+    datagram_ = *encoded;
+    return {};
+  }
+
+  wire::WireForm form_;
+  wire::Buffer buffer_{};
+  std::optional<std::string_view> datagram_;
+};
+
+}  // namespace trk_bridge::trk

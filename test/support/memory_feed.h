@@ -1,0 +1,46 @@
+// A source that says what a test wants, to its end.
+#pragma once
+
+#include <memory>
+
+#include "memory.h"
+
+namespace trk_bridge::test {
+
+class MemoryFeed {
+ public:
+  void put(const wire::Record& record, std::uint32_t port = 5000) {
+    MemoryQueue::Entry entry;
+    entry.reception.sample.record = record;
+    entry.reception.sample.sender = sender(port);
+    entry.reception.sample.origin = "ASCII";
+    queue_->push(entry);
+  }
+  void put_malformed(wire::Reason reason) {
+    MemoryQueue::Entry entry;
+    entry.event = transport::Event::malformed;
+    entry.reception.sample.sender = sender(5000);
+    entry.reception.fault = wire::Fault{reason};
+    queue_->push(entry);
+  }
+  void put(transport::Event event) {
+    MemoryQueue::Entry entry;
+    entry.event = event;
+    queue_->push(entry);
+  }
+
+  std::unique_ptr<transport::Source> source() const { return std::make_unique<MemorySource>(queue_); }
+
+ private:
+  static transport::Sender sender(std::uint32_t port) {
+    transport::Sender sender;
+    sender.kind = transport::SenderKind::ipv4;
+    sender.address = {127, 0, 0, 1};
+    sender.number = port;
+    return sender;
+  }
+
+  std::shared_ptr<MemoryQueue> queue_ = std::make_shared<MemoryQueue>();
+};
+
+}  // namespace trk_bridge::test

@@ -1,0 +1,81 @@
+// The parameters of test_card: defaults, and errors that name the key, the value and what is allowed.
+#include "demo/test_card_parameters.h"
+
+#include <gmock/gmock.h>
+
+#include "ros/parameter_reader.h"
+
+namespace trk_bridge::demo {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string refusal(const XmlRpc::XmlRpcValue& tree) {
+  try {
+    (void)read_parameters(tree, "crane");
+  } catch (const ros1::ParameterError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TestCardParameters, NoneAreNeeded) {
+  const auto parameters = read_parameters({}, "crane");
+  EXPECT_EQ(parameters.rate, 25);
+  EXPECT_EQ(parameters.studio_frame, "studio");
+  EXPECT_EQ(parameters.optical_frame, "crane_optical");
+  EXPECT_EQ(parameters.place.y, 12);
+}
+
+TEST(TestCardParameters, AreRead) {
+  XmlRpc::XmlRpcValue tree;
+  tree["rate"] = 5;
+  tree["studio_frame"] = "stage";
+  tree["optical_frame"] = "camera_optical";
+  tree["x"] = -1.5;
+  tree["y"] = 7;
+  tree["width"] = 3;
+  tree["depth"] = 2;
+  tree["height"] = 2.5;
+  tree["spacing"] = 0.5;
+  const auto parameters = read_parameters(tree, "crane");
+  EXPECT_EQ(parameters.rate, 5);
+  EXPECT_EQ(parameters.studio_frame, "stage");
+  EXPECT_EQ(parameters.optical_frame, "camera_optical");
+  const Place& place = parameters.place;
+  EXPECT_THAT((std::array{place.x, place.y, place.width, place.depth, place.height, place.spacing}),
+              ::testing::ElementsAre(-1.5, 7, 3, 2, 2.5, 0.5));
+}
+
+TEST(TestCardParameters, EveryFaultIsTold) {
+  XmlRpc::XmlRpcValue tree;
+  tree["rate"] = 0;
+  tree["spacing"] = 0.1;
+  tree["width"] = 11;
+  tree["hight"] = 3;
+  tree["y"] = "far";
+  EXPECT_THAT(refusal(tree), AllOf(HasSubstr("~rate = 0: must be 0.1 to 240 Hz"),
+                                   HasSubstr("~width = 11: must not be more than 100 times spacing"),
+                                   AllOf(HasSubstr("~hight"), HasSubstr("height")), HasSubstr("~y")));
+}
+
+TEST(TestCardParameters, ThereIsAlwaysSomethingToTellLinesApartBy) {
+  for (const double spacing : {0.0, -1.0, 0.001}) {
+    XmlRpc::XmlRpcValue tree;
+    tree["spacing"] = spacing;
+    EXPECT_THAT(refusal(tree), HasSubstr("~spacing = "));
+  }
+}
+
+TEST(TestCardParameters, FramesMustBeFrames) {
+  XmlRpc::XmlRpcValue tree;
+  tree["studio_frame"] = "/studio";
+  tree["optical_frame"] = "";
+  EXPECT_THAT(refusal(tree), AllOf(HasSubstr("~studio_frame = '/studio'"), HasSubstr("~optical_frame = ''")));
+  tree["studio_frame"] = tree["optical_frame"] = "studio";
+  EXPECT_THAT(refusal(tree), HasSubstr("must differ from studio_frame"));
+}
+
+}  // namespace
+}  // namespace trk_bridge::demo

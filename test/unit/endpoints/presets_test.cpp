@@ -1,0 +1,112 @@
+#include "endpoints/presets.h"
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace trk_bridge::endpoints {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+TEST(Presets, AreThoseOfTheFieldWithTheirMasks) {
+  const std::map<std::string, std::uint32_t> expected{
+      {"pixotope", 0x001},       {"disguise", 0x001},   {"hippotizer", 0x001}, {"unreal_trackmen", 0x001},
+      {"aximmetry", 0x09C},      {"brainstorm", 0x231}, {"deltatre", 0x031},   {"marketgraph", 0x09E},
+      {"marketgraph_v2", 0x29E}, {"monarch", 0x0B9},    {"nsynk", 0x019},      {"orad", 0x2BC},
+      {"rt_soft", 0x239}};
+  std::map<std::string, std::uint32_t> found;
+  for (const auto& preset : presets()) found[preset.name] = preset.format;
+  EXPECT_EQ(found, expected);
+  EXPECT_EQ(presets().size(), expected.size());
+}
+
+TEST(Presets, OnlyUnrealGetsNoId) {
+  for (const auto& preset : presets()) EXPECT_EQ(preset.sends_id, preset.name != "unreal_trackmen") << preset.name;
+}
+
+TEST(Presets, HaveQuirksOfOneLine) {
+  for (const auto& preset : presets()) {
+    EXPECT_GT(preset.quirks.size(), 20U) << preset.name;
+    EXPECT_THAT(preset.quirks, Not(HasSubstr("\n"))) << preset.name;
+  }
+  EXPECT_THAT(find_preset("unreal_trackmen")->quirks, HasSubstr("Drops ASCII records with an id"));
+}
+
+TEST(Presets, AreThoseOfTheFileThatIsInstalled) {
+  std::ifstream file(PRESETS_YAML);
+  const std::string yaml{std::istreambuf_iterator<char>(file), {}};
+  const auto read = presets_from_yaml(yaml, "presets.yaml");
+  ASSERT_TRUE(read) << read.error();
+  ASSERT_EQ(read->size(), presets().size());
+  for (std::size_t i = 0; i < read->size(); ++i) {
+    EXPECT_EQ((*read)[i].name, presets()[i].name);
+    EXPECT_EQ((*read)[i].format, presets()[i].format);
+    EXPECT_EQ((*read)[i].sends_id, presets()[i].sends_id);
+    EXPECT_EQ((*read)[i].quirks, presets()[i].quirks);
+  }
+}
+
+TEST(FindPreset, UnknownNamesAreRefusedWithTheNearest) {
+  const auto preset = find_preset("pixotop");
+  ASSERT_FALSE(preset);
+  EXPECT_THAT(preset.error(),
+              StartsWith("no such preset 'pixotop', nearest is pixotope; known are pixotope, disguise"));
+  EXPECT_THAT(find_preset("unreal").error(), HasSubstr("'unreal'"));
+  EXPECT_THAT(find_preset("marketgraphv2").error(), HasSubstr("nearest is marketgraph_v2"));
+  EXPECT_THAT(find_preset("").error(), HasSubstr("no such preset ''"));
+}
+
+std::string error_of(const std::string& yaml) {
+  const auto read = presets_from_yaml(yaml, "p.yaml");
+  return read ? "no error" : read.error();
+}
+
+TEST(PresetsFromYaml, ReadsWhatIsSound) {
+  const auto read =
+      presets_from_yaml("a_1:\n  quirks: >-\n    one\n    two\n  sends_id: false\n  format: Euler VERTICAL\n", "");
+  ASSERT_TRUE(read) << read.error();
+  ASSERT_EQ(read->size(), 1U);
+  EXPECT_EQ(read->front().name, "a_1");
+  EXPECT_EQ(read->front().format, 0x021U);
+  EXPECT_FALSE(read->front().sends_id);
+  EXPECT_EQ(read->front().quirks, "one two");
+}
+
+TEST(PresetsFromYaml, ErrorsNameTheLine) {
+  const std::string good = "a:\n  format: euler\n  sends_id: true\n  quirks: none\n";
+  EXPECT_EQ(error_of(good), "no error");
+  EXPECT_THAT(error_of(good + "b:\n  format: euler\n  send_id: true\n  quirks: none\n"),
+              StartsWith("p.yaml:7: preset b: no such key 'send_id', nearest is sends_id"));
+  EXPECT_THAT(error_of(good + "b:\n  format: euler oiler\n  sends_id: true\n  quirks: none\n"),
+              StartsWith("p.yaml:6: preset b: format: 'oiler' is no format word; those are matrix euler"));
+  EXPECT_THAT(error_of(good + "b:\n  format: [euler]\n  sends_id: true\n  quirks: none\n"),
+              StartsWith("p.yaml:6: preset b: format: must be text"));
+  EXPECT_THAT(error_of(good + "b:\n  format: euler\n  sends_id: perhaps\n  quirks: none\n"),
+              StartsWith("p.yaml:7: preset b: sends_id: must be true or false"));
+  EXPECT_THAT(error_of(good + "b:\n  format: euler\n  sends_id: true\n  quirks:\n"),
+              StartsWith("p.yaml:8: preset b: quirks: must be text"));
+  EXPECT_THAT(error_of(good + "b:\n  format: euler\n  sends_id: true\n"),
+              StartsWith("p.yaml:6: preset b: quirks is missing"));
+  EXPECT_THAT(error_of(good + "b:\n  format: euler\n  format: matrix\n  sends_id: true\n  quirks: none\n"),
+              StartsWith("p.yaml:7: preset b: format is given twice"));
+  EXPECT_THAT(error_of(good + good), StartsWith("p.yaml:5: preset a is given twice"));
+  EXPECT_THAT(error_of(good + "B c:\n  format: euler\n"), StartsWith("p.yaml:5: name of a preset 'B c': must be"));
+  EXPECT_THAT(error_of(good + "b: euler\n"), StartsWith("p.yaml:5: preset b: must be a map"));
+  EXPECT_THAT(error_of(good + "b: {format: euler\n"), StartsWith("p.yaml:"));
+}
+
+TEST(PresetsFromYaml, WhatIsNoMapIsRefused) {
+  EXPECT_THAT(error_of("- a\n- b\n"), StartsWith("p.yaml:1: must be a map of presets"));
+  EXPECT_THAT(error_of("just text"), StartsWith("p.yaml:1: must be a map of presets"));
+  EXPECT_THAT(error_of(""), HasSubstr("must be a map of presets"));
+}
+
+}  // namespace
+}  // namespace trk_bridge::endpoints

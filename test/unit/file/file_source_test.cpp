@@ -1,0 +1,254 @@
+#include <chrono>
+#include <cstdint>
+#include <ctime>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "temporary_directory.h"
+#include "trk_bridge/transport/sink.h"
+#include "trk_bridge/transport/source.h"
+#include "file/take_file.h"
+#include "vectors.h"
+
+namespace trk_bridge::file {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+using testing::HasSubstr;
+
+constexpr std::int64_t field = 20'000'000;  // ns at 50 Hz
+constexpr std::int64_t day = 86'400'000'000'000;
+// 10:20:30:12:1 at 50 Hz.
+constexpr std::int64_t of_day = (10 * 3600 + 20 * 60 + 30) * 1'000'000'000LL + 24 * field;
+
+class PlayFile : public testing::Test {
+ protected:
+  /// A take whose counters are 1..n.
+  FileEndpoint take_of(int n) {
+    std::string text = "DMC01\n10:20:30:12:1\n1920 1080 14 2 12 4 27 18 27 18\n";
+    for (int i = 1; i <= n; ++i) text += "1 1 2 3 4 5 6 50 0 0 0 0 5 8 " + std::to_string(i) + "\n";
+    test::write_text(path, text);
+    FileEndpoint endpoint;
+    endpoint.path = path;
+    return endpoint;
+  }
+
+  test::TemporaryDirectory directory;
+  const std::string path = directory / "take.trk";
+};
+
+bool is_constants(const Reception& r) { return std::holds_alternative<wire::CameraConstants>(r.sample.record); }
+std::uint64_t counter(const Reception& r) { return std::get<wire::CameraParams>(r.sample.record).counter; }
+
+TEST_F(PlayFile, ConstantsFirstThenEveryFieldThenTheEnd) {
+  auto endpoint = take_of(3);
+  endpoint.speed = 0;
+  const auto source = open_source(Endpoint(endpoint));
+  EXPECT_EQ(source->statistics().state, SourceState::waiting);
+  EXPECT_THAT(source->statistics().waiting_for, HasSubstr(path));
+  Reception r;
+  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  EXPECT_TRUE(is_constants(r));
+  EXPECT_EQ(r.sample.sender.kind, SenderKind::file);
+  for (std::uint64_t i = 1; i <= 3; ++i) {
+    ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+    EXPECT_EQ(counter(r), i);
+  }
+  EXPECT_EQ(source->statistics().state, SourceState::receiving);
+  EXPECT_EQ(source->receive(r, -1ns), Event::ended);
+  EXPECT_EQ(source->receive(r, -1ns), Event::ended);
+  EXPECT_EQ(source->statistics().state, SourceState::ended);
+  EXPECT_EQ(source->statistics().records, 4u);
+}
+
+TEST_F(PlayFile, ArrivalIsTheTimeCodeOnTheDateAndRisesOverLoops) {
+  auto endpoint = take_of(2);
+  endpoint.speed = 0;
+  endpoint.loop = true;
+  endpoint.date = 20'000 * 86'400;  // 2024-10-04
+  const auto source = open_source(Endpoint(endpoint));
+  Reception r;
+  std::int64_t index = 0;
+  for (int round = 0; round < 3; ++round) {
+    ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+    EXPECT_TRUE(is_constants(r)) << "round " << round;
+    EXPECT_EQ(r.sample.arrival, 20'000 * day + of_day + index * field);
+    for (std::uint64_t i = 1; i <= 2; ++i, ++index) {
+      ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+      EXPECT_EQ(counter(r), i);
+      EXPECT_EQ(r.sample.arrival, 20'000 * day + of_day + index * field);
+    }
+  }
+}
+
+TEST_F(PlayFile, WithoutADateItIsToday) {
+  auto endpoint = take_of(1);
+  endpoint.speed = 0;
+  const std::int64_t before = std::time(nullptr) / 86'400;
+  const auto source = open_source(Endpoint(endpoint));
+  const std::int64_t after = std::time(nullptr) / 86'400;
+  Reception r;
+  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  EXPECT_THAT(r.sample.arrival, testing::AllOf(testing::Ge(before * day + of_day), testing::Le(after * day + of_day)));
+}
+
+TEST_F(PlayFile, TheRateOfTheEndpointGoesBeforeTheCallers) {
+  auto endpoint = take_of(2);
+  endpoint.speed = 0;
+  endpoint.date = 0;
+  const auto arrival_of_second = [](const Endpoint& e, double field_rate) {
+    const auto source = open_source(e, field_rate);
+    Reception r;
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(source->receive(r, 0ns), Event::sample);
+    return r.sample.arrival;
+  };
+  // 30 frames a second: frame 12 is field 24.
+  const std::int64_t seconds = 10 * 3600 + 20 * 60 + 30;
+  EXPECT_EQ(arrival_of_second(endpoint, 60.0),
+            seconds * 1'000'000'000 + 25 * 1'000'000'000LL / 60 + 1);  // .6 rounds up
+  endpoint.rate = 100.0;
+  EXPECT_EQ(arrival_of_second(endpoint, 60.0), seconds * 1'000'000'000 + 250'000'000LL);
+}
+
+TEST_F(PlayFile, ArrivalNowIsTheWallClock) {
+  auto endpoint = take_of(1);
+  endpoint.speed = 0;
+  endpoint.time = FileTime::now;
+  const auto source = open_source(Endpoint(endpoint));
+  const auto wall = [] {
+    return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
+  };
+  Reception r;
+  const std::int64_t before = wall();
+  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  EXPECT_THAT(r.sample.arrival, testing::AllOf(testing::Ge(before), testing::Le(wall())));
+}
+
+TEST_F(PlayFile, NoFieldIsEverEarlyAndTheScheduleDoesNotDrift) {
+  auto endpoint = take_of(21);
+  endpoint.speed = 4;  // 5 ms a field
+  const auto source = open_source(Endpoint(endpoint));
+  Reception r;
+  const auto begin = Clock::now();
+  ASSERT_EQ(source->receive(r, -1ns), Event::sample);
+  const auto begun = Clock::now();
+  for (int i = 0; i <= 20; ++i) {
+    ASSERT_EQ(source->receive(r, -1ns), Event::sample);
+    EXPECT_GE(Clock::now() - begin, i * 5ms);
+    // What a reader loses, it catches up: what is overdue comes without waiting.
+    if (i == 10) {
+      while (Clock::now() - begun < 75ms) std::this_thread::yield();
+      for (int late = 11; late <= 15; ++late, ++i) ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+    }
+  }
+  EXPECT_EQ(counter(r), 21u);
+}
+
+TEST_F(PlayFile, BeforeItsTimeAFieldIsNotThere) {
+  auto endpoint = take_of(2);
+  endpoint.speed = 0.001;  // 20 s a field
+  const auto source = open_source(Endpoint(endpoint));
+  Reception r;
+  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  EXPECT_EQ(source->receive(r, 0ns), Event::idle);
+  const auto begin = Clock::now();
+  EXPECT_EQ(source->receive(r, 3ms), Event::idle);
+  EXPECT_GE(Clock::now() - begin, 3ms);
+}
+
+TEST_F(PlayFile, StopWakesAWaitingReaderForGood) {
+  auto endpoint = take_of(2);
+  endpoint.speed = 1e-6;
+  const auto source = open_source(Endpoint(endpoint));
+  Reception r;
+  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  std::thread stopper([&source] { source->stop(); });
+  EXPECT_EQ(source->receive(r, -1ns), Event::stopped);
+  stopper.join();
+  EXPECT_EQ(source->receive(r, -1ns), Event::stopped);
+}
+
+TEST_F(PlayFile, UnknownFormatBitsAreCounted) {
+  auto endpoint = take_of(0);
+  test::write_text(path, test::read_text(path) + "401 1 2 3 4 5 6 50 0 0 0 0 5 8 1\n1 1 2 3 4 5 6 50 0 0 0 0 5 8 2\n");
+  endpoint.speed = 0;
+  const auto source = open_source(Endpoint(endpoint));
+  Reception r;
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  EXPECT_EQ(source->statistics().unknown_format_bits, 1u);
+}
+
+TEST_F(PlayFile, WhatCannotBePlayedIsRefusedAtOpening) {
+  const auto error_of = [](const FileEndpoint& endpoint, double rate = 50.0) -> std::string {
+    try {
+      static_cast<void>(open_source(Endpoint(endpoint), rate));
+    } catch (const TransportError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  auto empty = take_of(0);
+  EXPECT_EQ(error_of(empty), "no error");
+  empty.loop = true;
+  EXPECT_THAT(error_of(empty), HasSubstr("loop=1"));
+  auto endpoint = take_of(1);
+  EXPECT_THAT(error_of(endpoint, 24.0), HasSubstr("10:20:30:12:1"));
+  EXPECT_THAT(error_of(endpoint, 0.0), HasSubstr("rate"));
+  EXPECT_THAT(error_of(endpoint, 1e300), HasSubstr("rate"));
+  endpoint.date = 253'402'214'400;  // 9999-12-31
+  EXPECT_THAT(error_of(endpoint), HasSubstr("date"));
+  endpoint.date.reset();
+  endpoint.speed = -1;
+  EXPECT_THAT(error_of(endpoint), HasSubstr("speed"));
+  endpoint.path += "x";
+  endpoint.speed = 1;
+  EXPECT_THAT(error_of(endpoint), HasSubstr("No such file"));
+}
+
+TEST_F(PlayFile, WhatTheSinkWroteComesBack) {
+  FileEndpoint endpoint;
+  endpoint.path = path;
+  endpoint.timecode = "01:02:03:04:2";
+  endpoint.speed = 0;
+  const auto sink = open_sink(Endpoint(endpoint));
+  wire::CameraParams params;
+  params.id = 7;
+  params.format = 1;
+  params.counter = 5;
+  EXPECT_EQ(sink->write(params).error().reason, SinkReason::no_constants);
+  auto constants = test::constants_of(test::read_jsonl("field/identified_lp64/constants.jsonl")[0]["fields"]);
+  constants.id = params.id;
+  ASSERT_TRUE(sink->write(constants));
+  ASSERT_TRUE(sink->write(constants));
+  ASSERT_TRUE(sink->write(params));
+  ASSERT_TRUE(sink->close());
+  EXPECT_EQ(sink->statistics().constants, 1u);
+  EXPECT_EQ(sink->statistics().params, 1u);
+  EXPECT_EQ(sink->statistics().errors, 1u);
+
+  const auto source = open_source(Endpoint(endpoint));
+  Reception r;
+  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  EXPECT_EQ(std::get<wire::CameraConstants>(r.sample.record), constants);
+  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  EXPECT_EQ(std::get<wire::CameraParams>(r.sample.record), params);
+  EXPECT_EQ(source->receive(r, 0ns), Event::ended);
+}
+
+TEST_F(PlayFile, ASinkWithAWrongTimeCodeIsRefused) {
+  FileEndpoint endpoint;
+  endpoint.path = path;
+  endpoint.timecode = "25:00:00:00:1";
+  EXPECT_THROW(static_cast<void>(open_sink(Endpoint(endpoint))), TransportError);
+}
+
+}  // namespace
+}  // namespace trk_bridge::file

@@ -1,0 +1,329 @@
+// Sources and sinks on a slot: who makes, follows, counts and removes a segment, and what is left alone.
+#include <chrono>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "free_slot.h"
+#include "shm/shm_segment.h"
+#include "trk_bridge/transport/sink.h"
+#include "trk_bridge/transport/source.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::shm {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto deadline = 5s;
+
+wire::CameraParams params(std::uint64_t counter) {
+  wire::CameraParams p;
+  p.format = wire::euler;
+  p.euler = {1, 2, 3, 4, 5, 6};
+  p.fov = 42;
+  p.counter = counter;
+  return p;
+}
+
+wire::CameraConstants constants(int width = 720) {
+  wire::CameraConstants c;
+  c.image_width = width;
+  c.image_height = 576;
+  c.chip_width = c.fake_chip_width = 6.4;
+  c.chip_height = c.fake_chip_height = 4.8;
+  return c;
+}
+
+class Shm : public ::testing::Test {
+ protected:
+  std::string url(const std::string& options = "") const { return "shm:" + std::to_string(slot.number()) + options; }
+  const ShmLayout& document() const { return *shm_layout_of_size(528); }
+
+  /// Receives for as long as the source has something or `done` is not true.
+  ::testing::AssertionResult receive_until(Source& source, const std::function<bool(const Sample&)>& done) {
+    const auto end = std::chrono::steady_clock::now() + deadline;
+    while (std::chrono::steady_clock::now() < end) {
+      const Event event = source.receive(into, 20ms);
+      if (event == Event::sample && done(into.sample)) return ::testing::AssertionSuccess();
+    }
+    return ::testing::AssertionFailure() << "not received in time; " << source.statistics().waiting_for;
+  }
+
+  ::testing::AssertionResult idle_until(Source& source, const std::function<bool()>& done) {
+    const auto end = std::chrono::steady_clock::now() + deadline;
+    while (!done()) {
+      if (std::chrono::steady_clock::now() > end) return ::testing::AssertionFailure() << "did not happen in time";
+      if (source.receive(into, 20ms) == Event::sample) return ::testing::AssertionFailure() << "a record came";
+    }
+    return ::testing::AssertionSuccess();
+  }
+
+  static bool is_params(const Sample& sample, std::uint64_t counter) {
+    const auto* p = std::get_if<wire::CameraParams>(&sample.record);
+    return p != nullptr && p->counter == counter;
+  }
+
+  test::FreeSlot slot;
+  Reception into;
+};
+
+TEST_F(Shm, what_is_written_is_read) {
+  const auto sink = open_sink(url("?layout=identified"));
+  const auto source = open_source(url());
+  auto sent = params(77);
+  sent.id = 3;
+  auto sent_constants = constants();
+  sent_constants.id = 3;
+  ASSERT_TRUE(sink->write(sent_constants));
+  ASSERT_TRUE(sink->write(sent));
+  const auto before = std::chrono::system_clock::now().time_since_epoch();
+  ASSERT_EQ(source->receive(into, deadline), Event::sample);
+  EXPECT_EQ(std::get<wire::CameraConstants>(into.sample.record), sent_constants);
+  ASSERT_EQ(source->receive(into, deadline), Event::sample);
+  EXPECT_EQ(std::get<wire::CameraParams>(into.sample.record), sent);
+  EXPECT_GE(into.sample.arrival, std::chrono::nanoseconds(before).count());
+  EXPECT_EQ(into.sample.sender.kind, SenderKind::shm);
+  EXPECT_EQ(into.sample.sender.number, static_cast<std::uint32_t>(slot.number()));
+  EXPECT_EQ(into.sample.form.encoding, wire::Encoding::binary);
+  EXPECT_EQ(into.sample.form.layout, shm_layout_of_size(544)->record);
+  EXPECT_EQ(source->receive(into, 0s), Event::idle);
+  EXPECT_EQ(source->statistics().records, 2U);
+  EXPECT_EQ(source->statistics().state, SourceState::receiving);
+}
+
+TEST_F(Shm, a_reader_sees_constants_from_before_and_parameters_from_after) {
+  const auto sink = open_sink(url());
+  ASSERT_TRUE(sink->write(constants()));
+  ASSERT_TRUE(sink->write(params(1)));
+  const auto source = open_source(url());
+  ASSERT_EQ(source->receive(into, deadline), Event::sample);
+  EXPECT_EQ(std::get<wire::CameraConstants>(into.sample.record), constants());
+  EXPECT_EQ(source->receive(into, 0s), Event::idle);
+  ASSERT_TRUE(sink->write(params(2)));
+  ASSERT_EQ(source->receive(into, deadline), Event::sample);
+  EXPECT_TRUE(is_params(into.sample, 2));
+}
+
+TEST_F(Shm, counters_wrap_and_replaced_sets_are_counted) {
+  const auto sink = open_sink(url());
+  const auto source = open_source(url());
+  for (std::uint64_t i = 1; i <= 65530; ++i) ASSERT_TRUE(sink->write(params(i)));
+  ASSERT_EQ(source->receive(into, deadline), Event::sample);
+  EXPECT_TRUE(is_params(into.sample, 65530));
+  EXPECT_EQ(source->statistics().overwritten, 65529U);
+  for (std::uint64_t i = 65531; i <= 65540; ++i) {
+    ASSERT_TRUE(sink->write(params(i)));
+    ASSERT_EQ(source->receive(into, deadline), Event::sample);
+    ASSERT_TRUE(is_params(into.sample, i));
+  }
+  EXPECT_EQ(source->statistics().overwritten, 65529U);
+}
+
+TEST_F(Shm, a_reader_waits_without_making_anything) {
+  const auto source = open_source(url());
+  EXPECT_EQ(source->receive(into, 0s), Event::idle);
+  EXPECT_FALSE(slot.has_file());
+  EXPECT_EQ(source->statistics().state, SourceState::waiting);
+  EXPECT_EQ(source->statistics().waiting_for, "slot " + std::to_string(slot.number()) + ": no segment");
+  const auto sink = open_sink(url());
+  ASSERT_TRUE(sink->write(constants()));
+  ASSERT_TRUE(receive_until(*source, [](const Sample&) { return true; }));
+  ASSERT_TRUE(sink->write(params(5)));
+  EXPECT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 5); }));
+}
+
+TEST_F(Shm, a_file_without_a_segment_is_left_by_the_reader_and_used_by_the_writer) {
+  const int id = slot.make_segment(528);
+  ::shmctl(id, IPC_RMID, nullptr);
+  struct stat before {};
+  ASSERT_EQ(::stat(slot.path().c_str(), &before), 0);
+  {
+    const auto source = open_source(url());
+    EXPECT_EQ(source->receive(into, 0s), Event::idle);
+  }
+  EXPECT_TRUE(slot.has_file());
+  const auto sink = open_sink(url());
+  struct stat after {};
+  ASSERT_EQ(::stat(slot.path().c_str(), &after), 0);
+  EXPECT_EQ(after.st_ino, before.st_ino);
+  EXPECT_TRUE(sink->write(params(1)));
+}
+
+TEST_F(Shm, the_last_one_removes_segment_and_file) {
+  auto sink = open_sink(url());
+  auto source = open_source(url());
+  const int id = slot.segment();
+  ASSERT_GE(id, 0);
+  sink.reset();
+  EXPECT_EQ(slot.segment(), id);
+  source.reset();
+  EXPECT_EQ(slot.segment(), -1);
+  EXPECT_FALSE(slot.has_file());
+}
+
+TEST_F(Shm, connected_counts_handles_and_attachments_are_the_truth) {
+  auto first = ShmSegment::attach_or_create(slot.number(), document(), 0666);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->connected(), 1);
+  auto second = ShmSegment::attach(slot.number());
+  ASSERT_TRUE(second);
+  EXPECT_EQ(first->connected(), 2);
+  second->close();
+  EXPECT_EQ(first->connected(), 1);
+  // A process that died left its count behind.
+  auto* memory = static_cast<char*>(::shmat(first->id(), nullptr, 0));
+  const std::int32_t too_high = 5;
+  std::memcpy(memory + document().connected, &too_high, sizeof too_high);
+  ::shmdt(memory);
+  first->close();
+  EXPECT_EQ(slot.segment(), -1);
+  EXPECT_FALSE(slot.has_file());
+}
+
+TEST_F(Shm, a_new_segment_has_the_mode_that_was_said_whatever_the_umask) {
+  const mode_t before = ::umask(0077);
+  const auto sink = open_sink(url("?mode=0664"));
+  ::umask(before);
+  shmid_ds state{};
+  ASSERT_EQ(::shmctl(slot.segment(), IPC_STAT, &state), 0);
+  EXPECT_EQ(state.shm_perm.mode & 0777, 0664);
+  EXPECT_EQ(state.shm_segsz, 528U);
+}
+
+TEST_F(Shm, a_segment_removed_and_made_anew_is_followed) {
+  auto sink = open_sink(url());
+  const auto source = open_source(url());
+  ASSERT_TRUE(sink->write(params(1)));
+  ASSERT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 1); }));
+  slot.remove();
+  auto second = open_sink(url("?layout=identified_i386"));
+  ASSERT_TRUE(second->write(constants(1920)));
+  ASSERT_TRUE(receive_until(*source, [](const Sample& s) { return s.record.index() == 1; }));
+  EXPECT_EQ(std::get<wire::CameraConstants>(into.sample.record).image_width, 1920);
+  EXPECT_EQ(into.sample.form.layout, shm_layout_of_size(524)->record);
+  ASSERT_TRUE(second->write(params(2)));
+  EXPECT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 2); }));
+  EXPECT_EQ(source->statistics().reattached, 1U);
+}
+
+TEST_F(Shm, a_slot_that_means_another_segment_is_followed_though_the_old_one_lives) {
+  const auto sink = open_sink(url());
+  const auto source = open_source(url());
+  ASSERT_TRUE(sink->write(params(1)));
+  ASSERT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 1); }));
+  // The file alone goes: its old segment stays, out of everybody's reach. A spare keeps the inode from coming again.
+  const std::string spare = slot.path() + ".spare";
+  ASSERT_EQ(::rename(slot.path().c_str(), spare.c_str()), 0);
+  const auto second = open_sink(url());
+  ::unlink(spare.c_str());
+  ASSERT_TRUE(idle_until(*source, [&] { return source->statistics().reattached == 1; }));
+  ASSERT_TRUE(second->write(params(2)));
+  EXPECT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 2); }));
+}
+
+TEST_F(Shm, a_sink_makes_a_removed_segment_anew_with_its_constants) {
+  const auto sink = open_sink(url());
+  ASSERT_TRUE(sink->write(constants()));
+  slot.remove();
+  ASSERT_TRUE(sink->write(params(9)));
+  const auto reader = ShmSegment::attach(slot.number());
+  ASSERT_TRUE(reader);
+  ShmImage image;
+  ASSERT_TRUE(reader->copy_params(image));
+  EXPECT_EQ(*wire::params_from_image(image.view(), reader->layout().record), params(9));
+  ASSERT_TRUE(reader->copy_constants(image));
+  EXPECT_EQ(*wire::constants_from_image(image.view(), reader->layout().record), constants());
+}
+
+TEST_F(Shm, recreate_makes_a_fresh_segment_when_all_others_have_left) {
+  const auto sink = open_sink(url("?recreate=1"));
+  auto source = open_source(url());
+  ASSERT_TRUE(sink->write(constants()));
+  ASSERT_TRUE(sink->write(params(1)));
+  const int first = slot.segment();
+  EXPECT_EQ(slot.segment(), first) << "as long as there is company";
+  source.reset();
+  ASSERT_TRUE(sink->write(params(2)));
+  const int second = slot.segment();
+  ASSERT_GE(second, 0);
+  EXPECT_NE(second, first);
+  ASSERT_TRUE(sink->write(params(3)));
+  EXPECT_EQ(slot.segment(), second) << "once is enough";
+  const auto reader = ShmSegment::attach(slot.number());
+  ASSERT_TRUE(reader);
+  EXPECT_EQ(reader->connected(), 2);
+  EXPECT_EQ(reader->params_counter(), 3);
+  EXPECT_EQ(reader->constants_counter(), 1);
+  ShmImage image;
+  ASSERT_TRUE(reader->copy_constants(image));
+  EXPECT_EQ(*wire::constants_from_image(image.view(), reader->layout().record), constants());
+}
+
+TEST_F(Shm, an_i386_segment_refuses_a_counter_that_it_cannot_hold) {
+  const auto sink = open_sink(url("?layout=document_i386"));
+  EXPECT_TRUE(sink->write(params(0xFFFFFFFF)));
+  const auto result = sink->write(params(0x100000000));
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().reason, SinkReason::not_encodable);
+  EXPECT_EQ(result.error().fault.reason, wire::Reason::out_of_range);
+  EXPECT_EQ(sink->statistics().errors, 1U);
+  EXPECT_EQ(sink->statistics().params, 1U);
+}
+
+TEST_F(Shm, an_unsound_record_is_malformed_and_costs_itself_alone) {
+  const auto sink = open_sink(url());
+  const auto source = open_source(url());
+  auto* memory = static_cast<char*>(::shmat(slot.segment(), nullptr, 0));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::uint16_t counter = 1;
+  std::memcpy(memory + document().params[1] + 136, &nan, sizeof nan);
+  std::memcpy(memory + document().params_counter, &counter, sizeof counter);
+  ::shmdt(memory);
+  ASSERT_EQ(source->receive(into, deadline), Event::malformed);
+  EXPECT_EQ(into.fault.reason, wire::Reason::not_finite);
+  EXPECT_EQ(into.sample.sender.kind, SenderKind::shm);
+  ASSERT_TRUE(sink->write(params(2)));
+  ASSERT_EQ(source->receive(into, deadline), Event::sample);
+  EXPECT_TRUE(is_params(into.sample, 2));
+  EXPECT_EQ(source->statistics().malformed, 1U);
+}
+
+TEST_F(Shm, stop_wakes_a_waiting_reader_for_good) {
+  const auto source = open_source(url());
+  std::thread stopper([&] { source->stop(); });
+  EXPECT_EQ(source->receive(into, -1ns), Event::stopped);
+  stopper.join();
+  EXPECT_EQ(source->receive(into, 0s), Event::stopped);
+}
+
+TEST_F(Shm, a_closed_sink_says_so) {
+  const auto sink = open_sink(url());
+  ASSERT_TRUE(sink->write(constants()));
+  ASSERT_TRUE(sink->close());
+  EXPECT_FALSE(slot.has_file());
+  EXPECT_EQ(sink->write(params(1)).error().reason, SinkReason::closed);
+  EXPECT_EQ(sink->write(constants()).error().reason, SinkReason::closed);
+  EXPECT_FALSE(slot.has_file());
+}
+
+TEST(ShmEndpoints, slots_that_do_not_exist_are_refused) {
+  for (const int number : {-1, 62, 1000}) {
+    ShmEndpoint endpoint;
+    endpoint.slot = number;
+    EXPECT_THROW(open_source(endpoint), TransportError) << number;
+    EXPECT_THROW(open_sink(endpoint), TransportError) << number;
+  }
+}
+
+TEST(ShmEndpoints, layouts_without_a_segment_are_refused) {
+  EXPECT_THROW(open_sink("shm:3?layout=document_llp64"), TransportError);
+  EXPECT_THROW(open_sink("shm:3?layout=identified_lp64_be"), TransportError);
+}
+
+}  // namespace
+}  // namespace trk_bridge::shm
