@@ -1,0 +1,137 @@
+#include "trk_bridge/endpoints/endpoints.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::endpoints {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string read_error(const std::string& url) {
+  const auto endpoint = parse_source(url);
+  return endpoint ? "no error" : endpoint.error();
+}
+std::string write_error(const std::string& url) {
+  const auto endpoint = parse_sink(url);
+  return endpoint ? "no error" : endpoint.error();
+}
+
+TEST(Endpoints, AnUnknownOptionListsTheKnownOfTheDirection) {
+  EXPECT_THAT(
+      read_error("udp://:7000?colour=red"),
+      AllOf(HasSubstr("unknown option colour"), HasSubstr("allow, interface, buffer, layout"), Not(HasSubstr("ttl"))));
+  EXPECT_THAT(write_error("udp://host:7000?colour=red"),
+              AllOf(HasSubstr("interface, ttl, constants_period, layout, binary"), Not(HasSubstr("allow"))));
+  EXPECT_THAT(write_error("shm:7?colour=red"), HasSubstr("layout, mode, recreate"));
+  EXPECT_THAT(read_error("shm:7?colour=red"), HasSubstr("none"));
+  EXPECT_THAT(read_error("file:a?colour=red"), HasSubstr("rate, speed, loop, time, date"));
+  EXPECT_THAT(write_error("file:a?colour=red"), HasSubstr("timecode, overwrite"));
+  EXPECT_THAT(write_error("shm:7?colour=red"), HasSubstr("format, preset, id"));
+  EXPECT_THAT(read_error("udp://:7000?format=euler"), HasSubstr("format is for writing"));
+}
+
+TEST(Endpoints, AnOptionOfTheOtherDirectionIsToldAsSuch) {
+  EXPECT_THAT(read_error("udp://:7000?ttl=3"), AllOf(HasSubstr("ttl is for writing"), HasSubstr("reading udp knows")));
+  EXPECT_THAT(write_error("udp://h:7000?allow=h"), HasSubstr("allow is for reading"));
+  EXPECT_THAT(read_error("shm:7?recreate=1"), HasSubstr("recreate is for writing"));
+  EXPECT_THAT(read_error("file:a?overwrite=1"), HasSubstr("overwrite is for writing"));
+  EXPECT_THAT(write_error("file:a?rate=50"), HasSubstr("rate is for reading"));
+}
+
+TEST(Endpoints, ABadValueNamesKeyValueAndWhatIsAllowed) {
+  EXPECT_THAT(write_error("udp://h:1?ttl=256"), AllOf(HasSubstr("ttl"), HasSubstr("\"256\""), HasSubstr("0 to 255")));
+  EXPECT_THAT(write_error("udp://h:1?ttl="), HasSubstr("ttl = \"\""));
+  EXPECT_THAT(write_error("udp://h:1?binary=yes"), AllOf(HasSubstr("\"yes\""), HasSubstr("0 and 1")));
+  EXPECT_THAT(write_error("udp://h:1?constants_period=-1"), HasSubstr("0 to 86400"));
+  EXPECT_THAT(write_error("udp://h:1?constants_period=nan"), HasSubstr("\"nan\""));
+  EXPECT_THAT(write_error("udp://h:1?constants_period=1s"), HasSubstr("\"1s\""));
+  EXPECT_THAT(read_error("udp://:1?buffer=0"), HasSubstr("1 to 1073741823"));
+  EXPECT_THAT(read_error("udp://:1?buffer=99999999999"), HasSubstr("\"99999999999\""));
+  EXPECT_THAT(read_error("udp://:1?layout=klingon"), AllOf(HasSubstr("klingon"), HasSubstr("identified")));
+  EXPECT_THAT(read_error("udp://:1?allow=a,,b"), HasSubstr("\"a,,b\""));
+  EXPECT_THAT(read_error("udp://:1?allow="), HasSubstr("allow"));
+  EXPECT_THAT(read_error("udp://:1?allow=[]"), HasSubstr("\"[]\""));
+  EXPECT_THAT(read_error("udp://:1?interface="), HasSubstr("interface"));
+  EXPECT_THAT(write_error("shm:7?mode=0888"), HasSubstr("octal"));
+  EXPECT_THAT(write_error("shm:7?mode=1000"), HasSubstr("0777"));
+  EXPECT_THAT(read_error("file:a?rate=0"), HasSubstr("rate"));
+  EXPECT_THAT(read_error("file:a?speed=-2"), HasSubstr("speed"));
+  EXPECT_THAT(read_error("file:a?time=later"), HasSubstr("timecode and now"));
+  EXPECT_THAT(write_error("file:a?timecode=25"), HasSubstr("HH:MM:SS:FF:D"));
+}
+
+TEST(Endpoints, MalformedOptions) {
+  EXPECT_THAT(write_error("udp://h:1?ttl=1&ttl=2"), HasSubstr("ttl is given twice"));
+  EXPECT_THAT(write_error("udp://h:1?ttl"), HasSubstr("KEY=VALUE"));
+  EXPECT_THAT(write_error("udp://h:1?=1"), HasSubstr("KEY=VALUE"));
+  EXPECT_THAT(write_error("udp://h:1?ttl=1&"), HasSubstr("KEY=VALUE"));
+  EXPECT_THAT(write_error("udp://h:1?ttl=%3"), HasSubstr("hexadecimal"));
+  EXPECT_EQ(read_error("udp://:7000?"), "no error") << "no options behind ? is none";
+}
+
+TEST(Endpoints, Schemes) {
+  for (const char* url : {"tcp://host:1", "memory:queue", "UDP://:1", ":7000", "udpx://:1"}) {
+    EXPECT_THAT(read_error(url), AllOf(HasSubstr("scheme"), HasSubstr("udp://HOST:PORT, shm:SLOT and file:PATH"))) << url;
+  }
+  for (const char* url : {"", "host", "7000"}) EXPECT_THAT(read_error(url), HasSubstr("no scheme")) << url;
+}
+
+TEST(Endpoints, AWrongUrlIsATransportError) {
+  EXPECT_THROW((void)open_source("shm:99"), transport::TransportError);
+  EXPECT_THROW((void)open_sink("udp://:7000"), transport::TransportError);
+}
+
+TEST(Endpoints, SinksOfEverySchemeHaveAForm) {
+  for (const std::string url : {"udp://192.0.2.7:7000?ttl=3&", "shm:7?", "file:take.trk?overwrite=1&"}) {
+    const auto words = parse_sink(url + "format=euler,field_of_view+vertical&id=7");
+    ASSERT_TRUE(words) << words.error();
+    EXPECT_EQ(words->form.format, wire::euler | wire::field_of_view | wire::vertical);
+    EXPECT_EQ(words->form.id, 7u);
+    EXPECT_TRUE(words->form.sends_id);
+    const auto preset = parse_sink(url + "preset=unreal_trackmen");
+    ASSERT_TRUE(preset) << preset.error();
+    EXPECT_EQ(preset->form.format, std::uint32_t{wire::euler});
+    EXPECT_FALSE(preset->form.sends_id);
+    const auto none = parse_sink(url.substr(0, url.size() - 1));
+    ASSERT_TRUE(none) << none.error();
+    EXPECT_FALSE(none->form.format || none->form.id);
+  }
+}
+
+TEST(Endpoints, AWrongFormNamesKeyValueAndWhatIsAllowed) {
+  EXPECT_THAT(write_error("shm:7?format=eulr"), AllOf(HasSubstr("format = \"eulr\""), HasSubstr("euler")));
+  EXPECT_THAT(write_error("shm:7?format=vertical,diagonal"), HasSubstr("format = "));
+  EXPECT_THAT(write_error("shm:7?preset=unrael"), AllOf(HasSubstr("'unrael'"), HasSubstr("unreal_trackmen")));
+  EXPECT_THAT(write_error("shm:7?preset=unreal_trackmen&format=euler"), HasSubstr("must not be given with format"));
+  EXPECT_THAT(write_error("shm:7?id=-1"), AllOf(HasSubstr("id = \"-1\""), HasSubstr("0 to 4294967295")));
+  EXPECT_THAT(write_error("shm:7?preset=unreal_trackmen&id=3"), HasSubstr("sends no id"));
+}
+
+TEST(Endpoints, WhatAFormDoesNotSayComesFromTheDefaults) {
+  transport::SinkForm defaults;
+  defaults.format = wire::euler | wire::field_of_view;
+  defaults.sends_id = false;
+  defaults.id = 5;
+  const auto form = transport::with_defaults(parse_sink("shm:7?format=matrix")->form, defaults);
+  EXPECT_EQ(form.format, 0u);
+  EXPECT_TRUE(form.sends_id) << "it came with the default's format";
+  EXPECT_EQ(form.id, 5u);
+  const auto by_id = transport::with_defaults(parse_sink("shm:7?id=9")->form, defaults);
+  EXPECT_EQ(by_id.format, defaults.format);
+  EXPECT_FALSE(by_id.sends_id);
+  EXPECT_EQ(by_id.id, 9u);
+}
+
+TEST(Endpoints, EqualPlacesAreThoseThatOnlyOneCanRead) {
+  EXPECT_EQ(parse_source("udp://:7000?allow=192.0.2.1")->place, parse_source("udp://:7000")->place);
+  EXPECT_NE(parse_source("udp://:7001")->place, parse_source("udp://:7000")->place);
+  EXPECT_EQ(parse_source("shm:7")->url, "shm:7");
+}
+
+}  // namespace
+}  // namespace trk_bridge::endpoints
