@@ -3,6 +3,7 @@
 
 #include "trk_bridge/camera/calibration.h"
 #include "camera/figure.h"
+#include "trk_bridge/camera/converter.h"
 #include "trk_bridge/camera/image.h"
 #include "trk_bridge/wire/format.h"
 
@@ -40,12 +41,13 @@ void encode(benchmark::State& state) {
 }
 BENCHMARK(encode)->ArgName("format")->Arg(angles)->Arg(0)->Arg(everything);
 
-void reexpress(benchmark::State& state) {
+void convert(benchmark::State& state) {
   const auto params = camera::encode(some_camera(mild), everything, &constants).value();
-  const auto format = static_cast<std::uint32_t>(state.range(0));
-  for (auto _ : state) benchmark::DoNotOptimize(camera::reexpress(params, format, &constants, &constants));
+  camera::Converter converter(static_cast<std::uint32_t>(state.range(0)));
+  if (converter.take(constants) != camera::ConstantsChange::changed) state.SkipWithError("bad constants");
+  for (auto _ : state) benchmark::DoNotOptimize(converter.convert(params));
 }
-BENCHMARK(reexpress)->ArgName("format")->Arg(angles)->Arg(everything);
+BENCHMARK(convert)->ArgName("format")->Arg(angles)->Arg(everything);
 
 void calibrate_kept(benchmark::State& state) {
   camera::Calibrator calibrator;

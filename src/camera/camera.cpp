@@ -5,14 +5,14 @@
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::camera {
+
 std::string describe(CameraReason reason) {
   switch (reason) {
     case CameraReason::not_finite:
       return "a number of the camera is not finite";
     case CameraReason::not_a_rotation:
       return "the matrix is not a rigid motion: its rotation is not orthonormal to 1e-3, is a reflection, or its "
-             "bottom "
-             "row is not 0 0 0 1";
+             "bottom row is not 0 0 0 1";
     case CameraReason::constants_needed:
       return "the format needs camera constants (field of view, ignored blanks and shift in pixels do) and none are "
              "known";
@@ -54,19 +54,6 @@ Result<wire::CameraParams> encode(const Camera& camera, std::uint32_t format,
   if (const auto pose = encode_pose(camera.pose, params); !pose) return tl::unexpected(pose.error());
   if (const auto lens = encode_lens(camera.lens, constants, params); !lens) return tl::unexpected(lens.error());
   return params;
-}
-
-Result<wire::CameraParams> reexpress(const wire::CameraParams& params, std::uint32_t format,
-                                     const wire::CameraConstants* incoming,
-                                     const wire::CameraConstants* outgoing) noexcept {
-  if (!wire::is_writable(format)) return tl::unexpected(CameraReason::bad_format);
-  wire::CameraParams told;
-  told.id = params.id;
-  told.counter = params.counter;
-  told.format = format;
-  if (const auto pose = reexpress_pose(params, told); !pose) return tl::unexpected(pose.error());
-  if (const auto lens = reexpress_lens(params, incoming, outgoing, told); !lens) return tl::unexpected(lens.error());
-  return told;
 }
 
 }  // namespace trk_bridge::camera

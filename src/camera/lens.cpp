@@ -35,8 +35,8 @@ Eigen::Array2d computed_fake_chip(const CameraConstants& c, std::uint32_t format
 
 /// What the sender said it is, or what it must be.
 Eigen::Array2d fake_chip(const CameraConstants& c, std::uint32_t format) noexcept {
-  const Eigen::Array2d told(c.fake_chip_width, c.fake_chip_height);
-  return told.isFinite().all() && (told > 0).all() ? told : computed_fake_chip(c, format);
+  const Eigen::Array2d sent(c.fake_chip_width, c.fake_chip_height);
+  return sent.isFinite().all() && (sent > 0).all() ? sent : computed_fake_chip(c, format);
 }
 
 /// The options that fov depends on; vertical wins over diagonal.
@@ -59,10 +59,6 @@ Result<void> check_needed(const CameraConstants* constants) noexcept {
   return check(*constants);
 }
 
-/// What fov tells: an angle over `side` mm of chip, or, where that is 0, the image distance.
-struct FovTerms {
-  double side = 0;
-};
 bool operator==(const FovTerms& a, const FovTerms& b) noexcept { return a.side == b.side; }
 
 Result<FovTerms> fov_terms(std::uint32_t format, const CameraConstants* constants) noexcept {
@@ -95,11 +91,6 @@ Result<double> fov_of(double distance, const FovTerms& terms) noexcept {
   return angle;
 }
 
-/// What the centre shift tells: (shift - offset) * scale, with the shift in mm on the chip.
-struct ShiftTerms {
-  Eigen::Array2d offset = Eigen::Array2d::Zero();
-  Eigen::Array2d scale = Eigen::Array2d::Ones();
-};
 bool operator==(const ShiftTerms& a, const ShiftTerms& b) noexcept {
   return (a.offset == b.offset).all() && (a.scale == b.scale).all();
 }
@@ -121,47 +112,44 @@ Result<ShiftTerms> shift_terms(std::uint32_t format, const CameraConstants* cons
   return terms;
 }
 
-Result<Eigen::Vector2d> shift_of(const Eigen::Array2d& told, const ShiftTerms& terms) noexcept {
-  const Eigen::Array2d shift = told / terms.scale + terms.offset;
+Result<Eigen::Vector2d> shift_of(const Eigen::Array2d& center, const ShiftTerms& terms) noexcept {
+  const Eigen::Array2d shift = center / terms.scale + terms.offset;
   if (!shift.isFinite().all()) return tl::unexpected(CameraReason::not_finite);
   return shift.matrix();
 }
 
-Result<Eigen::Array2d> told_shift(const Eigen::Vector2d& shift, const ShiftTerms& terms) noexcept {
-  const Eigen::Array2d told = (shift.array() - terms.offset) * terms.scale + 0.0;
-  if (!told.isFinite().all()) return tl::unexpected(CameraReason::not_finite);
-  return told;
+Result<Eigen::Array2d> center_of(const Eigen::Vector2d& shift, const ShiftTerms& terms) noexcept {
+  const Eigen::Array2d center = (shift.array() - terms.offset) * terms.scale + 0.0;
+  if (!center.isFinite().all()) return tl::unexpected(CameraReason::not_finite);
+  return center;
 }
 
-/// Whether numbers told under `a` mean the same under `b` although their options agree. Where either cannot be known,
+/// Whether numbers read under `a` mean the same under `b` although their options agree. Where either cannot be known,
 /// there are no constants by which a receiver could tell a difference.
 template <typename Terms>
 bool same_meaning(const Result<Terms>& a, const Result<Terms>& b) noexcept {
   return !a || !b || *a == *b;
 }
 
-Result<double> reexpress_fov(const wire::CameraParams& params, const CameraConstants* incoming, std::uint32_t format,
-                             const CameraConstants* outgoing) noexcept {
-  const Result<FovTerms> from = fov_terms(params.format, incoming);
+Result<double> convert_fov(const wire::CameraParams& params, const LensParts& parts, std::uint32_t format,
+                           const CameraConstants* outgoing) noexcept {
   const Result<FovTerms> to = fov_terms(format, outgoing);
-  if (fov_options(params.format) == fov_options(format) && same_meaning(from, to)) return params.fov;
-  if (!from) return tl::unexpected(from.error());
+  if (fov_options(params.format) == fov_options(format) && same_meaning(parts.fov_terms, to)) return params.fov;
+  if (!parts.fov_terms) return tl::unexpected(parts.fov_terms.error());
   if (!to) return tl::unexpected(to.error());
-  const Result<double> distance = image_distance_of(params.fov, *from);
-  return distance ? fov_of(*distance, *to) : distance;
+  return parts.image_distance ? fov_of(*parts.image_distance, *to) : parts.image_distance;
 }
 
-Result<Eigen::Array2d> reexpress_shift(const wire::CameraParams& params, const CameraConstants* incoming,
-                                       std::uint32_t format, const CameraConstants* outgoing) noexcept {
-  const Result<ShiftTerms> from = shift_terms(params.format, incoming);
+Result<Eigen::Array2d> convert_shift(const wire::CameraParams& params, const LensParts& parts, std::uint32_t format,
+                                     const CameraConstants* outgoing) noexcept {
   const Result<ShiftTerms> to = shift_terms(format, outgoing);
-  const Eigen::Array2d told(params.center_x, params.center_y);
-  if (shift_options(params.format) == shift_options(format) && same_meaning(from, to)) return told;
-  if (!from) return tl::unexpected(from.error());
+  if (shift_options(params.format) == shift_options(format) && same_meaning(parts.shift_terms, to)) {
+    return Eigen::Array2d(params.center_x, params.center_y);
+  }
+  if (!parts.shift_terms) return tl::unexpected(parts.shift_terms.error());
   if (!to) return tl::unexpected(to.error());
-  const Result<Eigen::Vector2d> shift = shift_of(told, *from);
-  if (!shift) return tl::unexpected(shift.error());
-  return told_shift(*shift, *to);
+  if (!parts.center_shift) return tl::unexpected(parts.center_shift.error());
+  return center_of(*parts.center_shift, *to);
 }
 
 }  // namespace
@@ -176,28 +164,38 @@ Result<void> check(const CameraConstants& c) noexcept {
 }
 
 CameraConstants constants_for(const CameraConstants& constants, std::uint32_t format) noexcept {
-  CameraConstants told = constants;
-  if (!check(constants)) return told;
+  CameraConstants outgoing = constants;
+  if (!check(constants)) return outgoing;
   const Eigen::Array2d computed = computed_fake_chip(constants, format);
   const Eigen::Array2d known(constants.fake_chip_width, constants.fake_chip_height);
-  if (((known - computed).abs() <= chip_tolerance * computed).all()) return told;
-  told.fake_chip_width = computed.x();
-  told.fake_chip_height = computed.y();
-  return told;
+  if (((known - computed).abs() <= chip_tolerance * computed).all()) return outgoing;
+  outgoing.fake_chip_width = computed.x();
+  outgoing.fake_chip_height = computed.y();
+  return outgoing;
+}
+
+LensParts lens_parts(const wire::CameraParams& params, const CameraConstants* constants) noexcept {
+  LensParts parts{fov_terms(params.format, constants), shift_terms(params.format, constants), 0.0, {}};
+  const auto distance = [&params](const FovTerms& terms) { return image_distance_of(params.fov, terms); };
+  const auto shift = [&params](const ShiftTerms& terms) { return shift_of({params.center_x, params.center_y}, terms); };
+  parts.image_distance = parts.fov_terms.and_then(distance);
+  parts.center_shift = parts.shift_terms.and_then(shift);
+  return parts;
+}
+
+Result<Lens> decode_lens(const wire::CameraParams& params, const LensParts& parts) noexcept {
+  // Missing constants are the first reason to give: they may still come, while a wrong number stays wrong.
+  if (!parts.fov_terms) return tl::unexpected(parts.fov_terms.error());
+  if (!parts.shift_terms) return tl::unexpected(parts.shift_terms.error());
+  if (!parts.image_distance) return tl::unexpected(parts.image_distance.error());
+  if (!parts.center_shift) return tl::unexpected(parts.center_shift.error());
+  const Eigen::Array4d rest(params.k1, params.k2, params.focdist, params.aperture);
+  if (!rest.isFinite().all()) return tl::unexpected(CameraReason::not_finite);
+  return Lens{*parts.image_distance, *parts.center_shift, params.k1, params.k2, params.focdist, params.aperture};
 }
 
 Result<Lens> decode_lens(const wire::CameraParams& params, const CameraConstants* constants) noexcept {
-  const Result<FovTerms> fov = fov_terms(params.format, constants);
-  if (!fov) return tl::unexpected(fov.error());
-  const Result<ShiftTerms> shift = shift_terms(params.format, constants);
-  if (!shift) return tl::unexpected(shift.error());
-  const Result<double> distance = image_distance_of(params.fov, *fov);
-  if (!distance) return tl::unexpected(distance.error());
-  const Result<Eigen::Vector2d> center = shift_of({params.center_x, params.center_y}, *shift);
-  if (!center) return tl::unexpected(center.error());
-  const Eigen::Array4d rest(params.k1, params.k2, params.focdist, params.aperture);
-  if (!rest.isFinite().all()) return tl::unexpected(CameraReason::not_finite);
-  return Lens{*distance, *center, params.k1, params.k2, params.focdist, params.aperture};
+  return decode_lens(params, lens_parts(params, constants));
 }
 
 Result<void> encode_lens(const Lens& lens, const CameraConstants* constants, wire::CameraParams& params) noexcept {
@@ -205,13 +203,13 @@ Result<void> encode_lens(const Lens& lens, const CameraConstants* constants, wir
   if (!fov) return tl::unexpected(fov.error());
   const Result<ShiftTerms> shift = shift_terms(params.format, constants);
   if (!shift) return tl::unexpected(shift.error());
-  const Result<double> told_fov = fov_of(lens.image_distance, *fov);
-  if (!told_fov) return tl::unexpected(told_fov.error());
-  const Result<Eigen::Array2d> center = told_shift(lens.center_shift, *shift);
+  const Result<double> written = fov_of(lens.image_distance, *fov);
+  if (!written) return tl::unexpected(written.error());
+  const Result<Eigen::Array2d> center = center_of(lens.center_shift, *shift);
   if (!center) return tl::unexpected(center.error());
   const Eigen::Array4d rest(lens.k1, lens.k2, lens.focdist, lens.aperture);
   if (!rest.isFinite().all()) return tl::unexpected(CameraReason::not_finite);
-  params.fov = *told_fov;
+  params.fov = *written;
   params.center_x = center->x();
   params.center_y = center->y();
   params.k1 = lens.k1;
@@ -221,19 +219,19 @@ Result<void> encode_lens(const Lens& lens, const CameraConstants* constants, wir
   return {};
 }
 
-Result<void> reexpress_lens(const wire::CameraParams& params, const CameraConstants* incoming,
-                            const CameraConstants* outgoing, wire::CameraParams& told) noexcept {
-  const Result<double> fov = reexpress_fov(params, incoming, told.format, outgoing);
+Result<void> convert_lens(const wire::CameraParams& params, const LensParts& parts, const CameraConstants* outgoing,
+                          wire::CameraParams& out) noexcept {
+  const Result<double> fov = convert_fov(params, parts, out.format, outgoing);
   if (!fov) return tl::unexpected(fov.error());
-  const Result<Eigen::Array2d> center = reexpress_shift(params, incoming, told.format, outgoing);
+  const Result<Eigen::Array2d> center = convert_shift(params, parts, out.format, outgoing);
   if (!center) return tl::unexpected(center.error());
-  told.fov = *fov;
-  told.center_x = center->x();
-  told.center_y = center->y();
-  told.k1 = params.k1;
-  told.k2 = params.k2;
-  told.focdist = params.focdist;
-  told.aperture = params.aperture;
+  out.fov = *fov;
+  out.center_x = center->x();
+  out.center_y = center->y();
+  out.k1 = params.k1;
+  out.k2 = params.k2;
+  out.focdist = params.focdist;
+  out.aperture = params.aperture;
   return {};
 }
 

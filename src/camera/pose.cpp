@@ -72,23 +72,29 @@ bool finite(const wire::Euler& e) noexcept {
          std::isfinite(e.tilt) && std::isfinite(e.roll);
 }
 
+/// The options that the numbers of a pose depend on: formats that agree in them write a pose alike.
+std::uint32_t pose_options(std::uint32_t format) noexcept {
+  const std::uint32_t matrix_options = wire::studio_to_camera | wire::camera_y_up;
+  return format & (wire::euler | wire::studio_y_up | (has(format, wire::euler) ? 0U : matrix_options));
+}
+
 Eigen::Vector3d position_of(const wire::CameraParams& params) noexcept {
-  const Eigen::Vector3d told(params.euler.x, params.euler.y, params.euler.z);
-  return has(params.format, wire::studio_y_up) ? from_y_up(told) : told;
+  const Eigen::Vector3d position(params.euler.x, params.euler.y, params.euler.z);
+  return has(params.format, wire::studio_y_up) ? from_y_up(position) : position;
 }
 
 void set_position(const Eigen::Vector3d& position, wire::CameraParams& params) noexcept {
-  const Eigen::Vector3d told = has(params.format, wire::studio_y_up) ? to_y_up(position) : position;
-  params.euler.x = told.x() + 0.0;
-  params.euler.y = told.y() + 0.0;
-  params.euler.z = told.z() + 0.0;
+  const Eigen::Vector3d written = has(params.format, wire::studio_y_up) ? to_y_up(position) : position;
+  params.euler.x = written.x() + 0.0;
+  params.euler.y = written.y() + 0.0;
+  params.euler.z = written.z() + 0.0;
 }
 
 Result<Eigen::Isometry3d> decode_matrix(const wire::CameraParams& params) noexcept {
-  const Eigen::Map<const Eigen::Matrix4d> told(params.matrix.data());
-  if (!told.allFinite()) return tl::unexpected(CameraReason::not_finite);
+  const Eigen::Map<const Eigen::Matrix4d> matrix(params.matrix.data());
+  if (!matrix.allFinite()) return tl::unexpected(CameraReason::not_finite);
   if (!wire::is_rigid(params.matrix)) return tl::unexpected(CameraReason::not_a_rotation);
-  Eigen::Isometry3d m = isometry(nearest_rotation(told.topLeftCorner<3, 3>()), told.topRightCorner<3, 1>());
+  Eigen::Isometry3d m = isometry(nearest_rotation(matrix.topLeftCorner<3, 3>()), matrix.topRightCorner<3, 1>());
   if (has(params.format, wire::studio_to_camera)) m = m.inverse();
   const Eigen::Matrix3d studio = axes(has(params.format, wire::studio_y_up));
   const Eigen::Matrix3d camera = axes(has(params.format, wire::camera_y_up));
@@ -143,11 +149,6 @@ Result<Eigen::Isometry3d> decode_pose(const wire::CameraParams& params) noexcept
   return isometry(rotation_of({params.euler.pan, params.euler.tilt, params.euler.roll}), position_of(params));
 }
 
-std::uint32_t pose_options(std::uint32_t format) noexcept {
-  const std::uint32_t matrix_options = wire::studio_to_camera | wire::camera_y_up;
-  return format & (wire::euler | wire::studio_y_up | (has(format, wire::euler) ? 0U : matrix_options));
-}
-
 Result<void> encode_pose(const Eigen::Isometry3d& pose, wire::CameraParams& params) noexcept {
   if (!pose.matrix().allFinite()) return tl::unexpected(CameraReason::not_finite);
   std::array<double, 16> columns;
@@ -162,21 +163,18 @@ Result<void> encode_pose(const Eigen::Isometry3d& pose, wire::CameraParams& para
   return {};
 }
 
-Result<void> reexpress_pose(const wire::CameraParams& params, wire::CameraParams& told) noexcept {
-  if (pose_options(params.format) == pose_options(told.format)) {
-    told.matrix = params.matrix;
-    told.euler = params.euler;
+Result<void> convert_pose(const wire::CameraParams& params, const Result<Eigen::Isometry3d>& pose,
+                          wire::CameraParams& out) noexcept {
+  if (pose_options(params.format) == pose_options(out.format)) {
+    out.matrix = params.matrix;
+    out.euler = params.euler;
     return {};
   }
-  if (has(params.format & told.format, wire::euler)) {
-    if (!finite(params.euler)) return tl::unexpected(CameraReason::not_finite);
-    told.euler = params.euler;
-    set_position(position_of(params), told);
-    return {};
-  }
-  const Result<Eigen::Isometry3d> pose = decode_pose(params);
   if (!pose) return tl::unexpected(pose.error());
-  return encode_pose(*pose, told);
+  if (!has(params.format & out.format, wire::euler)) return encode_pose(*pose, out);
+  out.euler = params.euler;
+  set_position(pose->translation(), out);
+  return {};
 }
 
 }  // namespace trk_bridge::camera

@@ -9,14 +9,13 @@
 
 namespace trk_bridge::camera {
 
-/// The options of `format` that the numbers of a pose depend on: two formats that agree in them tell a pose alike.
-std::uint32_t pose_options(std::uint32_t format) noexcept;
-
 /// Writes `matrix` or `euler` of `params` as `params.format` says; the other one is not touched. Refuses
 /// (not_a_rotation, not_finite) what is not a pose.
 [[nodiscard]] Result<void> encode_pose(const Eigen::Isometry3d& pose, wire::CameraParams& params) noexcept;
 
-/// The pose of `params` as `format` tells it, into `told` whose format is already set.
-[[nodiscard]] Result<void> reexpress_pose(const wire::CameraParams& params, wire::CameraParams& told) noexcept;
+/// The pose of `params` in the format of `out`: the very doubles where the options that they depend on agree, the very
+/// angles from Euler to Euler. `pose` is decode_pose(params).
+[[nodiscard]] Result<void> convert_pose(const wire::CameraParams& params, const Result<Eigen::Isometry3d>& pose,
+                                        wire::CameraParams& out) noexcept;
 
 }  // namespace trk_bridge::camera

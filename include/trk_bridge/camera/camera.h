@@ -1,4 +1,4 @@
-// The canonical camera and its way from and to parameter records of any format (camera model, "Frames" to "Centre
+// The canonical camera, read from and written to parameter records of any format (camera model, "Frames" to "Centre
 // shift"). z-up on both sides, camera to studio, image distance in mm, shift on the chip in mm, blanks considered.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace trk_bridge::camera {
 
-/// Why something is no camera, no lens or no picture, or cannot be told in a format.
+/// Why something is no camera, no lens or no picture, or cannot be written in a format.
 enum class CameraReason : std::uint8_t {
   not_finite,         ///< a number is NaN or infinite
   not_a_rotation,     ///< the matrix is not orthonormal to 1e-3, is a reflection, or its bottom row is not 0 0 0 1
@@ -66,11 +66,8 @@ using Result = tl::expected<T, CameraReason>;
 [[nodiscard]] Result<wire::CameraParams> encode(const Camera&, std::uint32_t format,
                                                 const wire::CameraConstants* constants) noexcept;
 
-/// `params` told in `format`: id and counter stay. Each of pose, fov and centre shift whose own options do not change
-/// (keep_aspect, say, only concerns what is told in terms of the fake chip) keeps the very doubles it came with,
-/// whatever they are, unless both constants are sound and give it another meaning; k1, k2, focdist and aperture always
-/// do. From Euler to Euler the angles stay as well. `incoming` are the sender's constants, `outgoing` those for the
-/// receiver (see constants_for); either may be null where not needed.
+/// What Converter::convert makes of `params`, with the sender's constants and those for the receiver from the caller;
+/// either may be null where not needed.
 [[nodiscard]] Result<wire::CameraParams> reexpress(const wire::CameraParams& params, std::uint32_t format,
                                                    const wire::CameraConstants* incoming,
                                                    const wire::CameraConstants* outgoing) noexcept;

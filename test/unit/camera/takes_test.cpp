@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "trk_bridge/camera/camera.h"
+#include "trk_bridge/camera/converter.h"
 #include "trk_bridge/wire/codec.h"
 #include "vectors.h"
 
@@ -40,6 +40,8 @@ class Takes : public ::testing::TestWithParam<const char*> {};
 TEST_P(Takes, AreTheSameMotion) {
   const Take reference = read_take("euler");
   const Take take = read_take(GetParam());
+  Converter converter(reference.params.front().format);
+  ASSERT_EQ(converter.take(take.constants), ConstantsChange::changed);
   ASSERT_EQ(reference.params.size(), 2259U);
   ASSERT_EQ(take.params.size(), reference.params.size());
   for (std::size_t i = 0; i < take.params.size() && !HasFailure(); ++i) {
@@ -48,25 +50,25 @@ TEST_P(Takes, AreTheSameMotion) {
     const auto camera = decode(take.params[i], &take.constants);
     ASSERT_TRUE(expected && camera);
     expect_same_camera(*camera, *expected);
-    const std::uint32_t format = reference.params[i].format;
-    const wire::CameraConstants outgoing = constants_for(take.constants, format);
-    const auto told = reexpress(take.params[i], format, &take.constants, &outgoing);
-    ASSERT_TRUE(told) << describe(told.error());
-    EXPECT_NEAR(told->fov, reference.params[i].fov, 1e-5 * told->fov);
-    EXPECT_NEAR(told->center_x, reference.params[i].center_x, 1e-6);
-    EXPECT_NEAR(told->euler.y, reference.params[i].euler.y, 1e-5);
-    EXPECT_NEAR(std::remainder(told->euler.pan - reference.params[i].euler.pan, 360), 0, 1e-3);
+    ASSERT_EQ(reference.params[i].format, reference.params.front().format);
+    const auto out = converter.convert(take.params[i]).params;
+    ASSERT_TRUE(out) << describe(out.error());
+    EXPECT_NEAR(out->fov, reference.params[i].fov, 1e-5 * out->fov);
+    EXPECT_NEAR(out->center_x, reference.params[i].center_x, 1e-6);
+    EXPECT_NEAR(out->euler.y, reference.params[i].euler.y, 1e-5);
+    EXPECT_NEAR(std::remainder(out->euler.pan - reference.params[i].euler.pan, 360), 0, 1e-3);
   }
 }
 
 TEST_P(Takes, StayAsTheyAreInTheirOwnFormat) {
   const Take take = read_take(GetParam());
+  Converter converter(take.params.front().format);
+  ASSERT_EQ(converter.take(take.constants), ConstantsChange::changed);
+  EXPECT_EQ(*converter.outgoing(), take.constants);
   for (const auto& params : take.params) {
-    const wire::CameraConstants outgoing = constants_for(take.constants, params.format);
-    EXPECT_EQ(outgoing, take.constants);
-    const auto told = reexpress(params, params.format, &take.constants, &outgoing);
-    ASSERT_TRUE(told);
-    ASSERT_EQ(*told, params);
+    const auto out = converter.convert(params).params;
+    ASSERT_TRUE(out);
+    ASSERT_EQ(*out, params);
   }
 }
 

@@ -1,0 +1,49 @@
+#include "trk_bridge/camera/converter.h"
+
+#include "lens.h"
+#include "pose.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::camera {
+namespace {
+
+Result<wire::CameraParams> in_format(std::uint32_t format, const wire::CameraParams& params,
+                                     const Result<Eigen::Isometry3d>& pose, const LensParts& lens,
+                                     const wire::CameraConstants* outgoing) noexcept {
+  if (!wire::is_writable(format)) return tl::unexpected(CameraReason::bad_format);
+  wire::CameraParams out;
+  out.id = params.id;
+  out.counter = params.counter;
+  out.format = format;
+  if (const auto done = convert_pose(params, pose, out); !done) return tl::unexpected(done.error());
+  if (const auto done = convert_lens(params, lens, outgoing, out); !done) return tl::unexpected(done.error());
+  return out;
+}
+
+}  // namespace
+
+ConstantsChange Converter::take(const wire::CameraConstants& constants) noexcept {
+  if (!check(constants)) return ConstantsChange::unsound;
+  if (constants_ && constants_->incoming == constants) return ConstantsChange::unchanged;
+  constants_ = Constants{constants, format_ ? constants_for(constants, *format_) : constants};
+  return ConstantsChange::changed;
+}
+
+Converted Converter::convert(const wire::CameraParams& params) const noexcept {
+  const LensParts lens = lens_parts(params, incoming());
+  Converted converted{decode_pose(params), decode_lens(params, lens), params};
+  if (format_) converted.params = in_format(*format_, params, converted.pose, lens, outgoing());
+  return converted;
+}
+
+Result<wire::CameraParams> Converter::convert(const Camera& camera) const noexcept {
+  return encode(camera, format_.value_or(wire::euler), outgoing());
+}
+
+Result<wire::CameraParams> reexpress(const wire::CameraParams& params, std::uint32_t format,
+                                     const wire::CameraConstants* incoming,
+                                     const wire::CameraConstants* outgoing) noexcept {
+  return in_format(format, params, decode_pose(params), lens_parts(params, incoming), outgoing);
+}
+
+}  // namespace trk_bridge::camera
