@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "bytes.h"
-#include "fields.h"
 #include "rigid.h"
 #include "shape.h"
+#include "trk_bridge/wire/fields.h"
 
 namespace trk_bridge::wire {
 
@@ -149,14 +149,11 @@ bool is_picture_size(std::int32_t value) noexcept {
 }
 
 bool is_sound(const CameraConstants& c) noexcept {
-  for (const std::int32_t* const value : pixels_of(c)) {
-    if (!is_picture_size(*value)) return false;
-  }
-  for (const double* const value : sizes_of(c)) {
-    if (!is_plausible(*value)) return false;
-  }
+  bool sound = true;
+  for_each_image_field([&sound](const Field&, std::int32_t value) { sound = sound && is_picture_size(value); }, c);
+  for_each_chip_field([&sound](const Field&, double value) { sound = sound && is_plausible(value); }, c);
   // A size has both its sides or none: when the id is taken for the width, one is missing.
-  return (c.image_width == 0) == (c.image_height == 0) && (c.chip_width == 0) == (c.chip_height == 0);
+  return sound && (c.image_width == 0) == (c.image_height == 0) && (c.chip_width == 0) == (c.chip_height == 0);
 }
 
 }  // namespace

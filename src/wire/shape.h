@@ -12,7 +12,7 @@ struct ParamsShape {
 };
 
 struct ConstantsShape {
-  std::size_t pixels, sizes, size;
+  std::size_t image, chip, size;
 };
 
 inline constexpr std::size_t transform_size = 128;
@@ -32,9 +32,9 @@ constexpr ParamsShape params_shape(Generation generation, Abi abi) noexcept {
 
 constexpr ConstantsShape constants_shape(Generation generation, Abi abi) noexcept {
   ConstantsShape s{};
-  s.pixels = generation == Generation::identified ? 4 : 0;
-  s.sizes = generation == Generation::identified && abi != Abi::i386 ? 32 : s.pixels + 24;
-  s.size = s.sizes + 4 * sizeof(double);
+  s.image = generation == Generation::identified ? 4 : 0;
+  s.chip = generation == Generation::identified && abi != Abi::i386 ? 32 : s.image + 24;
+  s.size = s.chip + 4 * sizeof(double);
   return s;
 }
 
@@ -53,10 +53,10 @@ static_assert(params_shape(Generation::identified, Abi::i386).transform == 8);
 static_assert(params_shape(Generation::identified, Abi::i386).counter == 192);
 static_assert(constants_shape(Generation::document, Abi::lp64).size == 56);
 static_assert(constants_shape(Generation::document, Abi::i386).size == 56);
-static_assert(constants_shape(Generation::document, Abi::lp64).sizes == 24);
+static_assert(constants_shape(Generation::document, Abi::lp64).chip == 24);
 static_assert(constants_shape(Generation::identified, Abi::lp64).size == 64);
-static_assert(constants_shape(Generation::identified, Abi::llp64).sizes == 32);
+static_assert(constants_shape(Generation::identified, Abi::llp64).chip == 32);
 static_assert(constants_shape(Generation::identified, Abi::i386).size == 60);
-static_assert(constants_shape(Generation::identified, Abi::i386).sizes == 28);
+static_assert(constants_shape(Generation::identified, Abi::i386).chip == 28);
 
 }  // namespace trk_bridge::wire
