@@ -8,13 +8,13 @@ tl::expected<wire::Decoded, wire::Fault> SenderLayouts::decode(std::string_view 
                                                                const Sender& sender) noexcept {
   if (Entry* known = find(sender)) {
     known->last_used = ++uses_;
-    return wire::decode(datagram, known->sense);
+    return wire::decode(datagram, known->detector);
   }
-  wire::LayoutSense sense(said_);
-  auto decoded = wire::decode(datagram, sense);
+  wire::LayoutDetector detector(said_);
+  auto decoded = wire::decode(datagram, detector);
   if (decoded) {
     Entry& entry = place_for_new();
-    entry = {sender, sense, ++uses_};
+    entry = {sender, detector, ++uses_};
     recent_ = static_cast<std::size_t>(&entry - entries_.data());
   }
   return decoded;

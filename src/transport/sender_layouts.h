@@ -28,7 +28,7 @@ class SenderLayouts {
  private:
   struct Entry {
     Sender sender;
-    wire::LayoutSense sense;
+    wire::LayoutDetector detector;
     std::uint64_t last_used = 0;
   };
 

@@ -26,7 +26,7 @@ class Loader {
   auto numbers_from(std::size_t offset, std::size_t place) noexcept {
     return [this, offset, place](const Field&, double& value) mutable {
       value = number(offset);
-      judge(value, place++);
+      check(value, place++);
       offset += sizeof(double);
     };
   }
@@ -37,7 +37,7 @@ class Loader {
       offset += sizeof bits;
     };
   }
-  void judge(double value, std::size_t place) noexcept {
+  void check(double value, std::size_t place) noexcept {
     if (!std::isfinite(value)) fault_.note(about_field(Reason::not_finite, place));
   }
   const FirstFault& fault() const noexcept { return fault_; }
@@ -101,7 +101,7 @@ tl::expected<CameraParams, Fault> params_from_image(std::string_view image, Layo
   } else {
     for (std::size_t i = 0; i < p.matrix.size(); ++i) {
       p.matrix[i] = loader.number(shape.transform + i * sizeof(double));
-      loader.judge(p.matrix[i], matrix_place(i));
+      loader.check(p.matrix[i], matrix_place(i));
     }
   }
   for_each_lens_field(loader.numbers_from(shape.lens, lens_place(p.format)), p);

@@ -23,7 +23,7 @@ class Reader {
     const std::string_view word = take_word(rest);
     if (word.empty() || word.front() != 'I') return;
     text_ = rest;
-    judge(read_digits(word.substr(1), value), id_place);
+    note(read_digits(word.substr(1), value), id_place);
   }
 
   void format(std::uint32_t& value) noexcept {
@@ -52,10 +52,10 @@ class Reader {
   void field(std::size_t place, Read read) noexcept {
     if (fault_) return;
     const std::string_view word = take_word(text_);
-    judge(word.empty() ? NumberFault(Reason::truncated) : read(word), place);
+    note(word.empty() ? NumberFault(Reason::truncated) : read(word), place);
   }
 
-  void judge(NumberFault reason, std::size_t place) noexcept {
+  void note(NumberFault reason, std::size_t place) noexcept {
     if (reason) fault_.note(about_field(*reason, place));
   }
 
