@@ -2,7 +2,6 @@
 #include <cstring>
 #include <limits>
 
-#include "bytes.h"
 #include "places.h"
 #include "shape.h"
 #include "trk_bridge/wire/codec.h"

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <optional>
 
-#include "bytes.h"
 #include "rigid.h"
 #include "shape.h"
 #include "trk_bridge/wire/fields.h"
