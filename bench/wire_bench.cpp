@@ -46,21 +46,21 @@ void write_params(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 
-void read_params(benchmark::State& state, const LayoutChoice& said) {
+void read_params(benchmark::State& state, const LayoutChoice& given) {
   Buffer buffer;
   const auto written = encode(sample(static_cast<std::uint32_t>(state.range(1))), form_of(state.range(0) != 0), buffer);
   if (!written) throw std::runtime_error(describe(written.error()));
-  LayoutSense sense(said);
+  LayoutDetector detector(given);
   for (auto _ : state) {
-    auto read = decode(*written, sense);
+    auto read = decode(*written, detector);
     if (!read) state.SkipWithError(describe(read.error()).c_str());
     benchmark::DoNotOptimize(read);
   }
   state.SetItemsProcessed(state.iterations());
 }
 
-void read_layout_found_out(benchmark::State& state) { read_params(state, {}); }
-void read_layout_said(benchmark::State& state) {
+void read_layout_detected(benchmark::State& state) { read_params(state, {}); }
+void read_layout_given(benchmark::State& state) {
   read_params(state, {Generation::identified, Abi::lp64, ByteOrder::little});
 }
 
@@ -71,8 +71,8 @@ void ascii_and_binary(benchmark::internal::Benchmark* b) {
   }
 }
 
-BENCHMARK(read_layout_found_out)->Apply(ascii_and_binary);
-BENCHMARK(read_layout_said)->ArgNames({"ascii", "format"})->Args({0, 0x012})->Args({0, 0x011});
+BENCHMARK(read_layout_detected)->Apply(ascii_and_binary);
+BENCHMARK(read_layout_given)->ArgNames({"ascii", "format"})->Args({0, 0x012})->Args({0, 0x011});
 BENCHMARK(write_params)->Apply(ascii_and_binary);
 
 }  // namespace

@@ -4,61 +4,84 @@
 #include <trk/trk_struct.h>
 
 #include <algorithm>
+#include <cstdint>
 
+#include "trk_bridge/wire/fields.h"
 #include "trk_bridge/wire/format.h"
 #include "trk_bridge/wire/record.h"
 
 namespace trk_bridge::c_api {
 
+/// The fields of trkCameraParams, the transform excepted, under the names of the records.
+struct NamedParams {
+  trkCameraParams& c;
+  std::uint32_t id = 0;  // the C interface has none
+  unsigned& format = c.format;
+  double& fov = c.fov;
+  double& center_x = c.centerX;
+  double& center_y = c.centerY;
+  double& k1 = c.k1;
+  double& k2 = c.k2;
+  double& focdist = c.focdist;
+  double& aperture = c.aperture;
+  unsigned long& counter = c.counter;
+};
+
+/// The fields of trkCameraConstants under the names of the records.
+struct NamedConstants {
+  trkCameraConstants& c;
+  std::uint32_t id = 0;  // the C interface has none
+  int& image_width = c.imageWidth;
+  int& image_height = c.imageHeight;
+  int& blank_left = c.blankLeft;
+  int& blank_right = c.blankRight;
+  int& blank_top = c.blankTop;
+  int& blank_bottom = c.blankBottom;
+  double& chip_width = c.chipWidth;
+  double& chip_height = c.chipHeight;
+  double& fake_chip_width = c.fakeChipWidth;
+  double& fake_chip_height = c.fakeChipHeight;
+};
+
 /// Of the transformation only what `format` selects; the rest is zero.
 inline trkCameraParams to_c(const wire::CameraParams& p) noexcept {
   trkCameraParams c{};
-  c.format = p.format;
+  NamedParams named{c};
+  wire::copy_fields<wire::CameraParams>(p, named);
   if (wire::has(p.format, wire::euler)) {
-    c.t.e = {p.euler.x, p.euler.y, p.euler.z, p.euler.pan, p.euler.tilt, p.euler.roll};
+    wire::copy_fields<wire::Euler>(p.euler, c.t.e);
   } else {
     std::copy(p.matrix.begin(), p.matrix.end(), &c.t.m[0][0]);
   }
-  c.fov = p.fov;
-  c.centerX = p.center_x;
-  c.centerY = p.center_y;
-  c.k1 = p.k1;
-  c.k2 = p.k2;
-  c.focdist = p.focdist;
-  c.aperture = p.aperture;
-  c.counter = static_cast<unsigned long>(p.counter);
   return c;
 }
 
 /// The way back; the id is 0.
-inline wire::CameraParams from_c(const trkCameraParams& c) noexcept {
+inline wire::CameraParams from_c(trkCameraParams c) noexcept {
   wire::CameraParams p;
-  p.format = c.format;
-  if (wire::has(c.format, wire::euler)) {
-    p.euler = {c.t.e.x, c.t.e.y, c.t.e.z, c.t.e.pan, c.t.e.tilt, c.t.e.roll};
+  NamedParams named{c};
+  wire::copy_fields<wire::CameraParams>(named, p);
+  if (wire::has(p.format, wire::euler)) {
+    wire::copy_fields<wire::Euler>(c.t.e, p.euler);
   } else {
     std::copy_n(&c.t.m[0][0], p.matrix.size(), p.matrix.begin());
   }
-  p.fov = c.fov;
-  p.center_x = c.centerX;
-  p.center_y = c.centerY;
-  p.k1 = c.k1;
-  p.k2 = c.k2;
-  p.focdist = c.focdist;
-  p.aperture = c.aperture;
-  p.counter = c.counter;
   return p;
 }
 
 inline trkCameraConstants to_c(const wire::CameraConstants& k) noexcept {
-  return {k.image_width,  k.image_height, k.blank_left,  k.blank_right,     k.blank_top,
-          k.blank_bottom, k.chip_width,   k.chip_height, k.fake_chip_width, k.fake_chip_height};
+  trkCameraConstants c{};
+  NamedConstants named{c};
+  wire::copy_fields<wire::CameraConstants>(k, named);
+  return c;
 }
 
 /// The way back; the id is 0.
-inline wire::CameraConstants from_c(const trkCameraConstants& c) noexcept {
-  return {0,           c.imageWidth, c.imageHeight,   c.blankLeft,     c.blankRight, c.blankTop, c.blankBottom,
-          c.chipWidth, c.chipHeight, c.fakeChipWidth, c.fakeChipHeight};
+inline wire::CameraConstants from_c(trkCameraConstants c) noexcept {
+  wire::CameraConstants k;
+  NamedConstants named{c};
+  wire::copy_fields<wire::CameraConstants>(named, k);
+  return k;
 }
 
 /// Whether a program passed something that may be written.

@@ -7,6 +7,7 @@
 
 #include "pacing.h"
 #include "cli/stop_signals.h"
+#include "trk_bridge/wire/fields.h"
 
 namespace trk_bridge::programs {
 namespace {
@@ -23,6 +24,10 @@ std::ostream& operator<<(std::ostream& out, Shortest number) {
   const auto end = std::to_chars(text.data(), text.data() + text.size(), number.value).ptr;
   return out.write(text.data(), end - text.data());
 }
+
+// The sentences below are worded by hand and have to name every field.
+static_assert(wire::field_count<wire::CameraParams>() == 10 && wire::field_count<wire::Euler>() == 6 &&
+              wire::field_count<wire::CameraConstants>() == 11);
 
 bool has(unsigned format, unsigned option) { return (format & option) != 0; }
 

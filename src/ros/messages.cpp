@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "trk_bridge/wire/fields.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {
@@ -18,43 +19,19 @@ static_assert(same(Params::EULER, wire::euler) && same(Params::STUDIO_TO_CAMERA,
               same(Params::KEEP_ASPECT, wire::keep_aspect) && same(Params::SHIFT_IN_PIXELS, wire::shift_in_pixels));
 
 void to_msg(const wire::CameraParams& params, Params& message) {
+  wire::copy_fields<wire::CameraParams>(params, message);
   const bool euler = wire::has(params.format, wire::euler);
   const wire::Euler pose = euler ? params.euler : wire::Euler{};
-  message.id = params.id;
-  message.counter = params.counter;
-  message.format = params.format;
+  wire::copy_fields<wire::Euler>(pose, message);
   if (euler) {
     message.matrix.fill(0);
   } else {
     std::copy(params.matrix.begin(), params.matrix.end(), message.matrix.begin());
   }
-  message.x = pose.x;
-  message.y = pose.y;
-  message.z = pose.z;
-  message.pan = pose.pan;
-  message.tilt = pose.tilt;
-  message.roll = pose.roll;
-  message.fov = params.fov;
-  message.center_x = params.center_x;
-  message.center_y = params.center_y;
-  message.k1 = params.k1;
-  message.k2 = params.k2;
-  message.focdist = params.focdist;
-  message.aperture = params.aperture;
 }
 
 void to_msg(const wire::CameraConstants& constants, trk_bridge::CameraConstants& message) {
-  message.id = constants.id;
-  message.image_width = constants.image_width;
-  message.image_height = constants.image_height;
-  message.blank_left = constants.blank_left;
-  message.blank_right = constants.blank_right;
-  message.blank_top = constants.blank_top;
-  message.blank_bottom = constants.blank_bottom;
-  message.chip_width = constants.chip_width;
-  message.chip_height = constants.chip_height;
-  message.fake_chip_width = constants.fake_chip_width;
-  message.fake_chip_height = constants.fake_chip_height;
+  wire::copy_fields<wire::CameraConstants>(constants, message);
 }
 
 void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& message) {
@@ -72,37 +49,18 @@ void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& mes
 
 wire::CameraParams from_msg(const Params& message) {
   wire::CameraParams params;
-  params.id = message.id;
-  params.counter = message.counter;
-  params.format = message.format;
+  wire::copy_fields<wire::CameraParams>(message, params);
   if (wire::has(params.format, wire::euler)) {
-    params.euler = {message.x, message.y, message.z, message.pan, message.tilt, message.roll};
+    wire::copy_fields<wire::Euler>(message, params.euler);
   } else {
     std::copy(message.matrix.begin(), message.matrix.end(), params.matrix.begin());
   }
-  params.fov = message.fov;
-  params.center_x = message.center_x;
-  params.center_y = message.center_y;
-  params.k1 = message.k1;
-  params.k2 = message.k2;
-  params.focdist = message.focdist;
-  params.aperture = message.aperture;
   return params;
 }
 
 wire::CameraConstants from_msg(const trk_bridge::CameraConstants& message) {
   wire::CameraConstants constants;
-  constants.id = message.id;
-  constants.image_width = message.image_width;
-  constants.image_height = message.image_height;
-  constants.blank_left = message.blank_left;
-  constants.blank_right = message.blank_right;
-  constants.blank_top = message.blank_top;
-  constants.blank_bottom = message.blank_bottom;
-  constants.chip_width = message.chip_width;
-  constants.chip_height = message.chip_height;
-  constants.fake_chip_width = message.fake_chip_width;
-  constants.fake_chip_height = message.fake_chip_height;
+  wire::copy_fields<wire::CameraConstants>(message, constants);
   return constants;
 }
 

@@ -1,5 +1,7 @@
 #include "shared_parameters.h"
 
+#include "trk_bridge/wire/fields.h"
+
 namespace trk_bridge::ros1 {
 
 std::optional<wire::CameraConstants> read_constants(ParameterReader& outer, std::vector<std::string>& faults) {
@@ -7,16 +9,12 @@ std::optional<wire::CameraConstants> read_constants(ParameterReader& outer, std:
   if (!tree) return std::nullopt;
   ParameterReader reader(*tree, outer.path() + "constants/", faults);
   wire::CameraConstants constants;
-  const std::pair<const char*, std::int32_t*> pixels[] = {
-      {"image_width", &constants.image_width}, {"image_height", &constants.image_height},
-      {"blank_left", &constants.blank_left},   {"blank_right", &constants.blank_right},
-      {"blank_top", &constants.blank_top},     {"blank_bottom", &constants.blank_bottom}};
-  for (const auto& [key, into] : pixels) take(reader.integer(key), *into);
-  const std::pair<const char*, double*> millimetres[] = {{"chip_width", &constants.chip_width},
-                                                         {"chip_height", &constants.chip_height},
-                                                         {"fake_chip_width", &constants.fake_chip_width},
-                                                         {"fake_chip_height", &constants.fake_chip_height}};
-  for (const auto& [key, into] : millimetres) take(reader.number(key), *into);
+  const auto read_pixels = [&](const wire::Field& field, std::int32_t& into) {
+    take(reader.integer(field.name), into);
+  };
+  const auto read_number = [&](const wire::Field& field, double& into) { take(reader.number(field.name), into); };
+  wire::for_each_image_field(read_pixels, constants);
+  wire::for_each_chip_field(read_number, constants);
   for (const char* key : {"image_width", "image_height", "chip_width", "chip_height"}) {
     if (!reader.has(key))
       faults.push_back(reader.path() + key + ": must be given (blanks and fake chip may be left out)");

@@ -10,6 +10,7 @@
 #include <rapidjson/writer.h>
 
 #include "base/time_text.h"
+#include "trk_bridge/wire/fields.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::tools {
@@ -17,7 +18,8 @@ namespace {
 
 using NumberText = std::array<char, 32>;
 
-std::string_view shortest(double value, NumberText& into) {
+template <typename Number>
+std::string_view shortest(Number value, NumberText& into) {
   const auto result = std::to_chars(into.data(), into.data() + into.size(), value);
   return {into.data(), static_cast<std::size_t>(result.ptr - into.data())};
 }
@@ -38,15 +40,11 @@ class JsonRecord {
     integer("format", p.format);
     text("format_words", wire::format_to_words(p.format));
     integer("counter", p.counter);
+    const auto put = [this](const wire::Field& field, double content) { number(field.name, content); };
     if (wire::has(p.format, wire::euler)) {
       writer_.Key("euler");
       writer_.StartObject();
-      number("x", p.euler.x);
-      number("y", p.euler.y);
-      number("z", p.euler.z);
-      number("pan", p.euler.pan);
-      number("tilt", p.euler.tilt);
-      number("roll", p.euler.roll);
+      wire::for_each_euler_field(put, p.euler);
       writer_.EndObject();
     } else {
       writer_.Key("matrix");
@@ -54,27 +52,17 @@ class JsonRecord {
       for (const double element : p.matrix) value(element);
       writer_.EndArray();
     }
-    number("fov", p.fov);
-    number("center_x", p.center_x);
-    number("center_y", p.center_y);
-    number("k1", p.k1);
-    number("k2", p.k2);
-    number("focdist", p.focdist);
-    number("aperture", p.aperture);
+    wire::for_each_lens_field(put, p);
   }
 
   void body(const wire::CameraConstants& c, const transport::Sample& sample) {
     origin("constants", c.id, sample);
-    integer("imageWidth", c.image_width);
-    integer("imageHeight", c.image_height);
-    integer("blankLeft", c.blank_left);
-    integer("blankRight", c.blank_right);
-    integer("blankTop", c.blank_top);
-    integer("blankBottom", c.blank_bottom);
-    number("chipWidth", c.chip_width);
-    number("chipHeight", c.chip_height);
-    number("fakeChipWidth", c.fake_chip_width);
-    number("fakeChipHeight", c.fake_chip_height);
+    const auto put_integer = [this](const wire::Field& field, std::int32_t content) {
+      integer(field.document_name, content);
+    };
+    const auto put_number = [this](const wire::Field& field, double content) { number(field.document_name, content); };
+    wire::for_each_image_field(put_integer, c);
+    wire::for_each_chip_field(put_number, c);
   }
 
   void origin(const char* type, std::uint32_t id, const transport::Sample& sample) {
@@ -124,6 +112,41 @@ class JsonRecord {
   rapidjson::Writer<rapidjson::StringBuffer> writer_;
 };
 
+/// The words that a plain line has before the number of a field, and whether the unit follows it.
+struct Wording {
+  std::string_view field, before;
+  bool unit_follows;
+};
+
+/// Of the fields that do not have their name before and their unit behind.
+constexpr Wording wordings[] = {{"x", "", false},
+                                {"y", "", false},
+                                {"z", "", true},
+                                {"pan", "pan tilt roll", false},
+                                {"tilt", "", false},
+                                {"roll", "", true},
+                                {"center_x", "center", false},
+                                {"center_y", "", true},
+                                {"image_width", "image", false},
+                                {"image_height", "x", true},
+                                {"blank_left", "blanks left", false},
+                                {"blank_right", "right", false},
+                                {"blank_top", "top", false},
+                                {"blank_bottom", "bottom", true},
+                                {"chip_width", "chip", false},
+                                {"chip_height", "", true},
+                                {"fake_chip_width", "fake chip", false},
+                                {"fake_chip_height", "", true}};
+
+Wording wording_of(const wire::Field& field, std::uint32_t format) {
+  const std::string_view name = field.name;
+  if (name == "fov") return {name, wire::has(format, wire::field_of_view) ? "field of view" : "image distance", true};
+  for (const Wording& wording : wordings) {
+    if (wording.field == name) return wording;
+  }
+  return {name, name, true};
+}
+
 class PlainRecord {
  public:
   explicit PlainRecord(const transport::Sample& sample)
@@ -141,41 +164,41 @@ class PlainRecord {
       std::snprintf(unknown.data(), unknown.size(), "0x%X", p.format & ~wire::known_format_bits);
       line_ += std::string(" unknown format bits ") + unknown.data();
     }
+    const auto put = [this, &p](const wire::Field& field, double value) { put_field(field, value, p.format); };
     if (wire::has(p.format, wire::euler)) {
-      numbers("", {p.euler.x, p.euler.y, p.euler.z}, "m");
-      numbers("pan tilt roll", {p.euler.pan, p.euler.tilt, p.euler.roll}, "deg");
+      wire::for_each_euler_field(put, p.euler);
     } else {
       line_ += " matrix columns";
       for (const double element : p.matrix) number(element);
     }
-    const bool is_angle = wire::has(p.format, wire::field_of_view);
-    numbers(is_angle ? "field of view" : "image distance", {p.fov}, is_angle ? "deg" : "mm");
-    numbers("center", {p.center_x, p.center_y}, wire::has(p.format, wire::shift_in_pixels) ? "px" : "mm");
-    numbers("k1", {p.k1}, "mm^-2");
-    numbers("k2", {p.k2}, "mm^-4");
-    numbers("focdist", {p.focdist}, "m");
-    numbers("aperture", {p.aperture}, "");
+    wire::for_each_lens_field(put, p);
   }
 
   void body(const wire::CameraConstants& c) {
-    line_ += " id " + std::to_string(c.id) + " constants image " + std::to_string(c.image_width) + " x " +
-             std::to_string(c.image_height) + " px blanks left " + std::to_string(c.blank_left) + " right " +
-             std::to_string(c.blank_right) + " top " + std::to_string(c.blank_top) + " bottom " +
-             std::to_string(c.blank_bottom) + " px";
-    numbers("chip", {c.chip_width, c.chip_height}, "mm");
-    numbers("fake chip", {c.fake_chip_width, c.fake_chip_height}, "mm");
+    line_ += " id " + std::to_string(c.id) + " constants";
+    const auto put = [this](const wire::Field& field, auto value) { put_field(field, value, 0); };
+    wire::for_each_image_field(put, c);
+    wire::for_each_chip_field(put, c);
   }
 
-  void numbers(const char* what, std::initializer_list<double> values, const char* unit) {
-    if (*what != '\0') line_ += std::string(" ") + what;
-    for (const double v : values) number(v);
-    if (*unit != '\0') line_ += std::string(" ") + unit;
+  template <typename Number>
+  void put_field(const wire::Field& field, Number value, std::uint32_t format) {
+    const Wording wording = wording_of(field, format);
+    word(wording.before);
+    number(value);
+    if (wording.unit_follows) word(field.unit_in(format));
   }
 
-  void number(double value) {
-    NumberText buffer;
+  void word(std::string_view text) {
+    if (text.empty()) return;
     line_ += ' ';
-    line_ += shortest(value, buffer);
+    line_ += text;
+  }
+
+  template <typename Number>
+  void number(Number value) {
+    NumberText buffer;
+    word(shortest(value, buffer));
   }
 
   std::string line_;

@@ -32,7 +32,7 @@ tl::expected<wire::Decoded, wire::Fault> DatagramDecoder::decode(std::string_vie
     known->last_used = ++uses_;
     return wire::decode(datagram, known->detector);
   }
-  wire::LayoutSense detector(layout_);
+  wire::LayoutDetector detector(layout_);
   auto decoded = wire::decode(datagram, detector);
   if (decoded) {
     Entry& entry = place_for_new();

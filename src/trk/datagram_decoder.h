@@ -26,7 +26,7 @@ class DatagramDecoder final : public transport::Decoder {
  private:
   struct Entry {
     transport::Sender sender;
-    wire::LayoutSense detector;
+    wire::LayoutDetector detector;
     std::uint64_t last_used = 0;
   };
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "layout_sense.h"
+#include "layout_detector.h"
 #include "words.h"
 
 namespace trk_bridge::wire {
@@ -50,7 +50,7 @@ tl::expected<std::string_view, Fault> encode_record(const Record& record, WireFo
 
 }  // namespace
 
-tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutSense& sense) noexcept {
+tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutDetector& detector) noexcept {
   if (datagram.size() > max_datagram) return refuse(Reason::too_long);
   const std::string_view begin = datagram.substr(0, magic.size());
   if (begin != magic.substr(0, begin.size())) return refuse(Reason::bad_magic);
@@ -66,7 +66,8 @@ tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutSense& sens
       return type == 'P' ? as_decoded(params_from_text(*text)) : as_decoded(constants_from_text(*text));
     }
     case 'B':
-      return type == 'P' ? LayoutSenseAccess::params(payload, sense) : LayoutSenseAccess::constants(payload, sense);
+      return type == 'P' ? LayoutDetectorAccess::params(payload, detector)
+                         : LayoutDetectorAccess::constants(payload, detector);
     default:
       return refuse(Reason::bad_encoding);
   }

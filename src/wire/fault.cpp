@@ -26,8 +26,8 @@ const char* name(Reason reason) noexcept {
       return "wrong size";
     case Reason::layout_mismatch:
       return "layout mismatch";
-    case Reason::no_sound_layout:
-      return "no sound layout";
+    case Reason::no_valid_layout:
+      return "no valid layout";
   }
   return "unknown reason";
 }
@@ -57,9 +57,9 @@ const char* explanation(Reason reason) noexcept {
     case Reason::wrong_size:
       return "no known layout has a binary record of this size";
     case Reason::layout_mismatch:
-      return "the size is not that of the layout that was said";
-    case Reason::no_sound_layout:
-      return "no layout of this size gives a sound record";
+      return "the size is not that of the given layout";
+    case Reason::no_valid_layout:
+      return "no layout of this size gives a valid record";
   }
   return "no explanation";
 }

@@ -2,10 +2,10 @@
 #include <cstring>
 #include <limits>
 
-#include "bytes.h"
-#include "fields.h"
+#include "places.h"
 #include "shape.h"
 #include "trk_bridge/wire/codec.h"
+#include "trk_bridge/wire/fields.h"
 
 namespace trk_bridge::wire {
 
@@ -21,16 +21,22 @@ class Loader {
     return load<std::uint64_t>(image_.data() + offset, order_);
   }
   double number(std::size_t offset) const noexcept { return load_double(image_.data() + offset, order_); }
-  /// `place` is that of the first of `values`.
-  template <std::size_t n>
-  void numbers(std::size_t offset, std::size_t place, const std::array<double*, n>& values) noexcept {
-    for (double* const value : values) {
-      *value = number(offset);
-      judge(*value, place++);
+  /// A visitor of consecutive fields; offset and place are those of the first.
+  auto numbers_from(std::size_t offset, std::size_t place) noexcept {
+    return [this, offset, place](const Field&, double& value) mutable {
+      value = number(offset);
+      check(value, place++);
       offset += sizeof(double);
-    }
+    };
   }
-  void judge(double value, std::size_t place) noexcept {
+  auto words_from(std::size_t offset) const noexcept {
+    return [this, offset](const Field&, std::int32_t& value) mutable {
+      const std::uint32_t bits = word(offset);
+      std::memcpy(&value, &bits, sizeof bits);
+      offset += sizeof bits;
+    };
+  }
+  void check(double value, std::size_t place) noexcept {
     if (!std::isfinite(value)) fault_.note(about_field(Reason::not_finite, place));
   }
   const FirstFault& fault() const noexcept { return fault_; }
@@ -54,12 +60,18 @@ class Storer {
     if (!std::isfinite(value)) refuse(Reason::not_finite, place);
     store_double(value, buffer_.data() + offset, order_);
   }
-  template <std::size_t n>
-  void numbers(std::size_t offset, std::size_t place, const std::array<const double*, n>& values) noexcept {
-    for (const double* const value : values) {
-      number(offset, place++, *value);
+  /// A visitor of consecutive fields; offset and place are those of the first.
+  auto numbers_from(std::size_t offset, std::size_t place) noexcept {
+    return [this, offset, place](const Field&, double value) mutable {
+      number(offset, place++, value);
       offset += sizeof(double);
-    }
+    };
+  }
+  auto words_from(std::size_t offset) noexcept {
+    return [this, offset](const Field&, std::int32_t value) mutable {
+      word(offset, static_cast<std::uint32_t>(value));
+      offset += sizeof value;
+    };
   }
   void refuse(Reason reason, std::size_t place) noexcept { fault_.note(about_field(reason, place)); }
   tl::expected<std::string_view, Fault> finish() const noexcept {
@@ -84,14 +96,14 @@ tl::expected<CameraParams, Fault> params_from_image(std::string_view image, Layo
   if (layout.generation == Generation::identified) p.id = loader.word(id_offset);
   p.format = loader.word(shape.format);
   if (has(p.format, euler)) {
-    loader.numbers(shape.transform, transform_place, euler_of(p));
+    for_each_euler_field(loader.numbers_from(shape.transform, transform_place), p.euler);
   } else {
     for (std::size_t i = 0; i < p.matrix.size(); ++i) {
       p.matrix[i] = loader.number(shape.transform + i * sizeof(double));
-      loader.judge(p.matrix[i], matrix_place(i));
+      loader.check(p.matrix[i], matrix_place(i));
     }
   }
-  loader.numbers(shape.lens, lens_place(p.format), lens_of(p));
+  for_each_lens_field(loader.numbers_from(shape.lens, lens_place(p.format)), p);
   p.counter = shape.counter_width == 8 ? loader.wide_word(shape.counter) : loader.word(shape.counter);
   if (loader.fault()) return tl::unexpected(*loader.fault());
   return p;
@@ -103,13 +115,8 @@ tl::expected<CameraConstants, Fault> constants_from_image(std::string_view image
   Loader loader(image, layout.byte_order);
   CameraConstants c;
   if (layout.generation == Generation::identified) c.id = loader.word(id_offset);
-  std::size_t offset = shape.pixels;
-  for (std::int32_t* const value : pixels_of(c)) {
-    const std::uint32_t bits = loader.word(offset);
-    std::memcpy(value, &bits, sizeof bits);
-    offset += sizeof bits;
-  }
-  loader.numbers(shape.sizes, sizes_place, sizes_of(c));
+  for_each_image_field(loader.words_from(shape.image), c);
+  for_each_chip_field(loader.numbers_from(shape.chip, chip_place), c);
   if (loader.fault()) return tl::unexpected(*loader.fault());
   return c;
 }
@@ -120,13 +127,13 @@ tl::expected<std::string_view, Fault> to_image(const CameraParams& p, Layout lay
   if (layout.generation == Generation::identified) storer.word(id_offset, p.id);
   storer.word(shape.format, p.format);
   if (has(p.format, euler)) {
-    storer.numbers(shape.transform, transform_place, euler_of(p));
+    for_each_euler_field(storer.numbers_from(shape.transform, transform_place), p.euler);
   } else {
     for (std::size_t i = 0; i < p.matrix.size(); ++i) {
       storer.number(shape.transform + i * sizeof(double), matrix_place(i), p.matrix[i]);
     }
   }
-  storer.numbers(shape.lens, lens_place(p.format), lens_of(p));
+  for_each_lens_field(storer.numbers_from(shape.lens, lens_place(p.format)), p);
   if (shape.counter_width == 8) {
     storer.wide_word(shape.counter, p.counter);
   } else {
@@ -142,12 +149,8 @@ tl::expected<std::string_view, Fault> to_image(const CameraConstants& c, Layout 
   const ConstantsShape shape = constants_shape(layout.generation, layout.abi);
   Storer storer(buffer, shape.size, layout.byte_order);
   if (layout.generation == Generation::identified) storer.word(id_offset, c.id);
-  std::size_t offset = shape.pixels;
-  for (const std::int32_t* const value : pixels_of(c)) {
-    storer.word(offset, static_cast<std::uint32_t>(*value));
-    offset += sizeof(std::int32_t);
-  }
-  storer.numbers(shape.sizes, sizes_place, sizes_of(c));
+  for_each_image_field(storer.words_from(shape.image), c);
+  for_each_chip_field(storer.numbers_from(shape.chip, chip_place), c);
   return storer.finish();
 }
 

@@ -27,8 +27,8 @@ NumberFault read_whole(std::string_view digits, T& value, int base) noexcept {
   return std::nullopt;
 }
 
-/// Whether an unsigned decimal that is outside the range of doubles is so because it is too small. It is far enough
-/// from 1 for the sign of its decimal exponent to tell.
+/// Whether an unsigned decimal that is outside the range of doubles is so because it is too small. It is so far
+/// from 1 that the sign of its decimal exponent decides.
 bool is_tiny(std::string_view word) noexcept {
   constexpr long cap = 1000000;
   const std::size_t e = std::min(word.find_first_of("eE"), word.size());

@@ -1,4 +1,4 @@
-// What tells a matrix from sixteen other numbers.
+// Whether sixteen numbers are a matrix.
 #pragma once
 
 #include <array>

@@ -1,7 +1,9 @@
-// Sizes and offsets of the binary records (wire format, "Binary payload").
+// Sizes and offsets of the binary records (wire format, "Binary payload"), and their numbers in either byte order.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 
 #include "trk_bridge/wire/layout.h"
 
@@ -12,7 +14,7 @@ struct ParamsShape {
 };
 
 struct ConstantsShape {
-  std::size_t pixels, sizes, size;
+  std::size_t image, chip, size;
 };
 
 inline constexpr std::size_t transform_size = 128;
@@ -32,9 +34,9 @@ constexpr ParamsShape params_shape(Generation generation, Abi abi) noexcept {
 
 constexpr ConstantsShape constants_shape(Generation generation, Abi abi) noexcept {
   ConstantsShape s{};
-  s.pixels = generation == Generation::identified ? 4 : 0;
-  s.sizes = generation == Generation::identified && abi != Abi::i386 ? 32 : s.pixels + 24;
-  s.size = s.sizes + 4 * sizeof(double);
+  s.image = generation == Generation::identified ? 4 : 0;
+  s.chip = generation == Generation::identified && abi != Abi::i386 ? 32 : s.image + 24;
+  s.size = s.chip + 4 * sizeof(double);
   return s;
 }
 
@@ -53,10 +55,41 @@ static_assert(params_shape(Generation::identified, Abi::i386).transform == 8);
 static_assert(params_shape(Generation::identified, Abi::i386).counter == 192);
 static_assert(constants_shape(Generation::document, Abi::lp64).size == 56);
 static_assert(constants_shape(Generation::document, Abi::i386).size == 56);
-static_assert(constants_shape(Generation::document, Abi::lp64).sizes == 24);
+static_assert(constants_shape(Generation::document, Abi::lp64).chip == 24);
 static_assert(constants_shape(Generation::identified, Abi::lp64).size == 64);
-static_assert(constants_shape(Generation::identified, Abi::llp64).sizes == 32);
+static_assert(constants_shape(Generation::identified, Abi::llp64).chip == 32);
 static_assert(constants_shape(Generation::identified, Abi::i386).size == 60);
-static_assert(constants_shape(Generation::identified, Abi::i386).sizes == 28);
+static_assert(constants_shape(Generation::identified, Abi::i386).chip == 28);
+
+template <class Unsigned>
+Unsigned load(const char* from, ByteOrder order) noexcept {
+  Unsigned value = 0;
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
+    const std::size_t at = order == ByteOrder::big ? i : sizeof(Unsigned) - 1 - i;
+    value = static_cast<Unsigned>(value << 8 | static_cast<unsigned char>(from[at]));
+  }
+  return value;
+}
+
+template <class Unsigned>
+void store(Unsigned value, char* to, ByteOrder order) noexcept {
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
+    const std::size_t at = order == ByteOrder::little ? i : sizeof(Unsigned) - 1 - i;
+    to[at] = static_cast<char>(static_cast<unsigned char>(value >> 8 * i));
+  }
+}
+
+inline double load_double(const char* from, ByteOrder order) noexcept {
+  const auto bits = load<std::uint64_t>(from, order);
+  double value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+inline void store_double(double value, char* to, ByteOrder order) noexcept {
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  store(bits, to, order);
+}
 
 }  // namespace trk_bridge::wire

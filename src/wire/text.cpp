@@ -2,9 +2,10 @@
 #include <cmath>
 #include <type_traits>
 
-#include "fields.h"
 #include "number.h"
+#include "places.h"
 #include "trk_bridge/wire/codec.h"
+#include "trk_bridge/wire/fields.h"
 #include "words.h"
 
 namespace trk_bridge::wire {
@@ -22,7 +23,7 @@ class Reader {
     const std::string_view word = take_word(rest);
     if (word.empty() || word.front() != 'I') return;
     text_ = rest;
-    judge(read_digits(word.substr(1), value), id_place);
+    note(read_digits(word.substr(1), value), id_place);
   }
 
   void format(std::uint32_t& value) noexcept {
@@ -35,10 +36,9 @@ class Reader {
     field(place, [&value](std::string_view word) { return read_number(word, value); });
   }
 
-  /// Consecutive fields from `place` on.
-  template <std::size_t n, class T>
-  void numbers(std::size_t place, const std::array<T*, n>& values) noexcept {
-    for (T* const value : values) number(place++, *value);
+  /// A visitor of consecutive fields, the first of which has this place.
+  auto numbers_from(std::size_t place) noexcept {
+    return [this, place](const Field&, auto& value) mutable { number(place++, value); };
   }
 
   /// The first fault, counting what stands behind the last field.
@@ -52,10 +52,10 @@ class Reader {
   void field(std::size_t place, Read read) noexcept {
     if (fault_) return;
     const std::string_view word = take_word(text_);
-    judge(word.empty() ? NumberFault(Reason::truncated) : read(word), place);
+    note(word.empty() ? NumberFault(Reason::truncated) : read(word), place);
   }
 
-  void judge(NumberFault reason, std::size_t place) noexcept {
+  void note(NumberFault reason, std::size_t place) noexcept {
     if (reason) fault_.note(about_field(*reason, place));
   }
 
@@ -97,9 +97,9 @@ class Writer {
     end_ = static_cast<std::size_t>(std::to_chars(here(), limit(), value).ptr - buffer_.data());
   }
 
-  template <std::size_t n, class T>
-  void numbers(std::size_t place, const std::array<T*, n>& values) noexcept {
-    for (T* const value : values) number(place++, *value);
+  /// A visitor of consecutive fields, the first of which has this place.
+  auto numbers_from(std::size_t place) noexcept {
+    return [this, place](const Field&, auto value) mutable { number(place++, value); };
   }
 
   tl::expected<std::string_view, Fault> finish() const noexcept {
@@ -137,11 +137,11 @@ tl::expected<CameraParams, Fault> params_from_text(std::string_view text) noexce
   reader.id(p.id);
   reader.format(p.format);
   if (has(p.format, euler)) {
-    reader.numbers(transform_place, euler_of(p));
+    for_each_euler_field(reader.numbers_from(transform_place), p.euler);
   } else {
     read_matrix(reader, p.matrix);
   }
-  reader.numbers(lens_place(p.format), lens_of(p));
+  for_each_lens_field(reader.numbers_from(lens_place(p.format)), p);
   reader.number(counter_place(p.format), p.counter);
   if (const auto fault = reader.finish()) return tl::unexpected(*fault);
   return p;
@@ -151,8 +151,8 @@ tl::expected<CameraConstants, Fault> constants_from_text(std::string_view text) 
   CameraConstants c;
   Reader reader(text);
   reader.id(c.id);
-  reader.numbers(pixels_place, pixels_of(c));
-  reader.numbers(sizes_place, sizes_of(c));
+  for_each_image_field(reader.numbers_from(image_place), c);
+  for_each_chip_field(reader.numbers_from(chip_place), c);
   if (const auto fault = reader.finish()) return tl::unexpected(*fault);
   return c;
 }
@@ -162,13 +162,13 @@ tl::expected<std::string_view, Fault> to_text(const CameraParams& p, Buffer& buf
   writer.id(p.id);
   writer.format(p.format);
   if (has(p.format, euler)) {
-    writer.numbers(transform_place, euler_of(p));
+    for_each_euler_field(writer.numbers_from(transform_place), p.euler);
   } else {
     for (std::size_t i = 0; i < p.matrix.size(); ++i) {
       if (i % 4 < text_rows) writer.number(matrix_place(i), p.matrix[i]);
     }
   }
-  writer.numbers(lens_place(p.format), lens_of(p));
+  for_each_lens_field(writer.numbers_from(lens_place(p.format)), p);
   writer.number(counter_place(p.format), p.counter);
   return writer.finish();
 }
@@ -176,8 +176,8 @@ tl::expected<std::string_view, Fault> to_text(const CameraParams& p, Buffer& buf
 tl::expected<std::string_view, Fault> to_text(const CameraConstants& c, Buffer& buffer) noexcept {
   Writer writer(buffer);
   writer.id(c.id);
-  writer.numbers(pixels_place, pixels_of(c));
-  writer.numbers(sizes_place, sizes_of(c));
+  for_each_image_field(writer.numbers_from(image_place), c);
+  for_each_chip_field(writer.numbers_from(chip_place), c);
   return writer.finish();
 }
 

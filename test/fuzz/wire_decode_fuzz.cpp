@@ -1,4 +1,4 @@
-// Any bytes as a datagram: with nothing known of the sender, with its layout said outright, and twice.
+// Any bytes as a datagram: with nothing known of the sender, with its layout given, and twice.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -20,23 +20,23 @@ void claim(const std::string& broken) {
   std::abort();
 }
 
-void claim_with_layout_said(std::string_view datagram) {
+void claim_with_given_layout(std::string_view datagram) {
   for (const auto generation : {wire::Generation::document, wire::Generation::identified}) {
     for (const auto abi : {wire::Abi::lp64, wire::Abi::llp64, wire::Abi::i386}) {
       for (const auto order : {wire::ByteOrder::little, wire::ByteOrder::big}) {
-        wire::LayoutSense sense({generation, abi, order});
-        claim(test::broken_claim(datagram, sense));
-        const auto seen = sense.seen();
-        if (seen && *seen != wire::Layout{generation, abi, order}) claim("a layout other than the one said");
+        wire::LayoutDetector detector({generation, abi, order});
+        claim(test::broken_claim(datagram, detector));
+        const auto seen = detector.seen();
+        if (seen && *seen != wire::Layout{generation, abi, order}) claim("a layout other than the one given");
       }
     }
   }
 }
 
 /// What a sender's record teaches does not change how the same record is read.
-void claim_same_again(std::string_view datagram, wire::LayoutSense& sense) {
-  const auto first = wire::decode(datagram, sense);
-  const auto second = wire::decode(datagram, sense);
+void claim_same_again(std::string_view datagram, wire::LayoutDetector& detector) {
+  const auto first = wire::decode(datagram, detector);
+  const auto second = wire::decode(datagram, detector);
   if (first.has_value() != second.has_value()) claim("a record once and a fault once");
   if (first && (first->record != second->record || first->form.layout != second->form.layout)) {
     claim("two records from the same bytes");
@@ -47,9 +47,9 @@ void claim_same_again(std::string_view datagram, wire::LayoutSense& sense) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view datagram(reinterpret_cast<const char*>(data), size);
-  wire::LayoutSense sense;
-  claim(test::broken_claim(datagram, sense));
-  claim_same_again(datagram, sense);
-  if (datagram.size() > wire::header_size && datagram[7] == 'B') claim_with_layout_said(datagram);
+  wire::LayoutDetector detector;
+  claim(test::broken_claim(datagram, detector));
+  claim_same_again(datagram, detector);
+  if (datagram.size() > wire::header_size && datagram[7] == 'B') claim_with_given_layout(datagram);
   return 0;
 }

@@ -19,7 +19,7 @@ class Receiver {
   /// Takes everything that has come. Throws when something that came is no record.
   void take() {
     while (const auto bytes = socket_.receive(std::chrono::milliseconds(0))) {
-      const auto read = wire::decode(*bytes, sense_);
+      const auto read = wire::decode(*bytes, detector_);
       if (!read) throw std::runtime_error("no record: " + wire::describe(read.error()));
       if (const auto* p = std::get_if<wire::CameraParams>(&read->record)) params.push_back(*p);
       if (const auto* c = std::get_if<wire::CameraConstants>(&read->record)) constants.push_back(*c);
@@ -36,7 +36,7 @@ class Receiver {
 
  private:
   PlainSocket socket_;
-  wire::LayoutSense sense_;
+  wire::LayoutDetector detector_;
 };
 
 }  // namespace trk_bridge::test

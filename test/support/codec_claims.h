@@ -36,7 +36,7 @@ std::optional<Record> there_and_back(const Record& record, wire::WireForm form) 
   wire::Buffer buffer;
   const auto bytes = wire::encode(record, form, buffer);
   if (!bytes) return std::nullopt;
-  wire::LayoutSense said({form.layout.generation, form.layout.abi, form.layout.byte_order});
+  wire::LayoutDetector said({form.layout.generation, form.layout.abi, form.layout.byte_order});
   const auto read = wire::decode(*bytes, said);
   if (!read || !std::holds_alternative<Record>(read->record)) return std::nullopt;
   return std::get<Record>(read->record);
@@ -62,12 +62,12 @@ std::string broken_claim_of(const Record& record, wire::WireForm form) {
 }
 
 /// Decodes `datagram` and names the claim that does not hold; empty when all do, be it a record or not.
-inline std::string broken_claim(std::string_view datagram, wire::LayoutSense& sense) {
-  const auto before = sense.seen();
-  const auto read = wire::decode(datagram, sense);
+inline std::string broken_claim(std::string_view datagram, wire::LayoutDetector& detector) {
+  const auto before = detector.seen();
+  const auto read = wire::decode(datagram, detector);
   if (!read) {
     if (wire::describe(read.error()).empty()) return "a fault without a description";
-    if (sense.seen() != before) return "a fault taught a layout";
+    if (detector.seen() != before) return "a fault taught a layout";
     return {};
   }
   if (datagram.size() > wire::max_datagram) return "a record longer than any datagram";
@@ -76,7 +76,7 @@ inline std::string broken_claim(std::string_view datagram, wire::LayoutSense& se
                                  ? wire::params_size(read->form.layout)
                                  : wire::constants_size(read->form.layout);
     if (datagram.size() != wire::header_size + size) return "a layout of another size";
-    if (sense.seen() != read->form.layout) return "the layout was not remembered";
+    if (detector.seen() != read->form.layout) return "the layout was not remembered";
   }
   return std::visit([&read](const auto& record) { return broken_claim_of(record, read->form); }, read->record);
 }

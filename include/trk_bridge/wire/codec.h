@@ -32,16 +32,17 @@ struct WireForm {
   Layout layout{};
 };
 
-/// A sound datagram.
+/// A valid datagram.
 struct Decoded {
   Record record;
   WireForm form;
-  /// The generation of a binary record is a guess: both would do, and nothing is known of the sender (`LayoutSense`).
+  /// The generation of a binary record is a guess: both generations fit, and nothing is known of the sender
+  /// (`LayoutDetector`).
   bool layout_guessed = false;
 };
 
-/// One whole datagram. `sense` is what is known of its sender; it learns from good binary records.
-[[nodiscard]] tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutSense& sense) noexcept;
+/// One whole datagram. `detector` is the one of its sender; it learns from good binary records.
+[[nodiscard]] tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutDetector& detector) noexcept;
 
 /// One whole datagram into `buffer`; the view covers its bytes. ASCII ends in its NUL. A number that is not finite is
 /// refused (not_finite), as is a counter or id that the layout cannot hold (out_of_range; an id other than 0 in the
@@ -63,7 +64,7 @@ struct Decoded {
 [[nodiscard]] tl::expected<CameraConstants, Fault> constants_from_text(std::string_view text) noexcept;
 
 /// The binary image without header, as it also stands in shared memory; `image` must have the layout's size
-/// (wrong_size otherwise). A format mask is not judged: that is `decode`'s, which has to guess.
+/// (wrong_size otherwise). Any format mask is taken: only `decode` looks at it, to detect the layout.
 [[nodiscard]] tl::expected<CameraParams, Fault> params_from_image(std::string_view image, Layout) noexcept;
 /// The same of constants.
 [[nodiscard]] tl::expected<CameraConstants, Fault> constants_from_image(std::string_view image, Layout) noexcept;

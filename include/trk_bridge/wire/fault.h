@@ -18,8 +18,8 @@ enum class Reason : std::uint8_t {
   not_finite,       ///< field N is NaN or infinite
   trailing_text,    ///< more than white space after the last field
   wrong_size,       ///< no known layout has a binary record of this size
-  layout_mismatch,  ///< the size contradicts the layout that was said outright
-  no_sound_layout,  ///< right size, but no layout gives a sound record
+  layout_mismatch,  ///< the size is not that of the layout given by the user
+  no_valid_layout,  ///< right size, but no layout gives a valid record
 };
 
 /// A reason and, where it is about one field, which: `field` is its 1-based place in the ASCII order with the format

@@ -40,7 +40,7 @@ std::size_t constants_size(Layout) noexcept;
 /// "identified lp64 little-endian".
 std::string describe(Layout);
 
-/// What the user said of a sender's layout; what is not said is found out.
+/// What the user gave of a sender's layout; the rest is detected.
 struct LayoutChoice {
   std::optional<Generation> generation;
   std::optional<Abi> abi;
@@ -51,58 +51,59 @@ struct LayoutChoice {
 /// `_be` or `_le`. The error lists what is allowed.
 tl::expected<LayoutChoice, std::string> layout_choice_from_word(std::string_view);
 
-/// The layout to write where the user said `choice`: `fallback` for everything unsaid.
-Layout resolve(const LayoutChoice&, Layout fallback) noexcept;
+/// The layout to write: what the user gave in `choice`, and what `fallback` has for the rest.
+Layout resolve(const LayoutChoice& choice, Layout fallback) noexcept;
 
-/// What is known of one sender's layout. One a sender: keep it between its datagrams. Not synchronised.
+/// Detects the layout of one sender. Use one for each sender and keep it between its datagrams. Not synchronised.
 ///
-/// What was said outright is not judged: only layouts in line with it are read, and with the generation said a record
-/// is taken as it is; a size that none of them has is a layout_mismatch. The rest is found out from every record of the
-/// sender.
+/// What the user gave is not checked: only layouts with it are read, and when the generation is given a record is taken
+/// as it is; a size that none of them has is a layout_mismatch. The rest is detected from every record of the sender.
 ///
-/// Constants tell the generation by their size: 56 bytes document, 64 or 60 identified. So do parameters of 192 bytes
-/// (document) and 196 (identified). Parameters of 200 bytes are read in both generations and byte orders. A reading
-/// *fits* when
+/// The size of constants decides the generation: 56 bytes document, 64 or 60 identified. So does the size of parameters
+/// of 192 bytes (document) and 196 (identified). Parameters of 200 bytes are read in both generations and byte orders.
+/// A reading *fits* when
 /// - with a matrix, the bottom row is 0 0 0 1;
 /// - with Euler angles, these and the lens values are 0 or of a magnitude between 1e-50 and 1e12 (focus and aperture
 ///   aside), and no rigid matrix (`is_rigid`) stands in their place.
-/// Without one that fits: no_sound_layout. Of several that fit the choice is, in order of weight,
-/// 1. the generation that the last constants told, or, before constants, the one of the last record that only one
-///    generation could read; ids and format masks have to be below 65536 for that;
+/// Without one that fits: no_valid_layout. Of several that fit the choice is, in order of weight,
+/// 1. the generation of the last constants, or, before constants, the one of the last record that only one generation
+///    could read; ids and format masks have to be below 65536 for that;
 /// 2. a format mask within known_format_bits and an id below 65536, one of the two being wrong, both being wrong;
 /// 3. identified when the second word is not 0 (padding seldom looks like a mask) or the first below 16; else, a first
 ///    word of 16 or more before a 0, document: that is a format before its padding rather than a camera of so high a
 ///    number in the default format;
 /// 4. the byte order seen last from the sender, else little-endian.
 /// Choice 3 is a guess where both generations read well (`Decoded::layout_guessed`): a sender whose layout matters has
-/// to send constants, or its user to say the layout. A first and second word of 0 mean the same in both generations
+/// to send constants, or its user to give the layout. A first and second word of 0 mean the same in both generations
 /// and are read as identified.
 /// When the reading chosen has a number that is not finite, that is the fault; the next best is not tried.
 ///
 /// Constants are read in the byte order in which all six picture sizes are below 65536, the four chip sizes are as the
-/// numbers above, and of width and height both are 0 or neither (picture and chip alike); with none: no_sound_layout.
+/// numbers above, and of width and height both are 0 or neither (picture and chip alike); with none: no_valid_layout.
 ///
 /// The counter of a 200-byte record: 8 bytes whose upper half is not zero (read in the sender's byte order; that half
 /// is the first one of a big-endian record) are taken for a 4-byte counter before padding, and the sender for `llp64`.
 /// A true 8-byte counter of one a field takes more than 200 days at 240 Hz to get there, while padding may be anything.
 /// When the upper half is seen to go up by one as the lower one wraps, the sender is `lp64` for good. With the upper
-/// half zero and nothing seen before, both mean the same and `lp64` is named; a big-endian 4-byte counter of 0
-/// before garbage can be told only after a record whose counter is not 0. An abi said outright rules all this out.
-class LayoutSense {
+/// half zero and nothing seen before, both mean the same and `lp64` is named; a big-endian 4-byte counter of 0 before
+/// padding that is not zero is recognised only after a record whose counter is not 0. None of this is done when the
+/// user gave the abi.
+class LayoutDetector {
  public:
-  LayoutSense() = default;
-  explicit LayoutSense(const LayoutChoice& said) : said_(said) {}
+  LayoutDetector() = default;
+  explicit LayoutDetector(const LayoutChoice& given) : given_(given) {}
 
-  const LayoutChoice& said() const noexcept { return said_; }
+  /// What the user gave.
+  const LayoutChoice& given() const noexcept { return given_; }
   /// The layout of the last good binary record; none before one.
   std::optional<Layout> seen() const noexcept { return seen_; }
 
  private:
-  friend struct LayoutSenseAccess;
-  LayoutChoice said_;
+  friend struct LayoutDetectorAccess;
+  LayoutChoice given_;
   std::optional<Layout> seen_;
-  std::optional<Generation> told_by_constants_;
-  std::optional<Generation> evident_;
+  std::optional<Generation> generation_of_constants_;
+  std::optional<Generation> only_possible_generation_;
   std::optional<std::uint64_t> last_wide_counter_;
   std::optional<Abi> counter_abi_;
 };

@@ -68,9 +68,9 @@ Received relayed_to(const std::string& preset) {
   tracker.send(test::datagram(test::constants(720, 3)), "127.0.0.1", port);
   tracker.send(test::datagram(test::params(77, 3)), "127.0.0.1", port);
   Received received;
-  wire::LayoutSense sense;
+  wire::LayoutDetector detector;
   for (int i = 0; i < 2; ++i) {
-    const auto record = wire::decode(receiver.receive().value_or(""), sense);
+    const auto record = wire::decode(receiver.receive().value_or(""), detector);
     if (!record) throw std::runtime_error("no record came: " + wire::describe(record.error()));
     if (const auto* params = std::get_if<wire::CameraParams>(&record->record)) received.params = *params;
     if (const auto* constants = std::get_if<wire::CameraConstants>(&record->record)) received.constants = *constants;

@@ -63,12 +63,12 @@ TEST(Allocation, NoneWhileReadingAndWriting) {
   const auto good = samples();
   auto bad = good;
   for (std::string& datagram : bad) datagram.resize(datagram.size() / 2);
-  LayoutSense sense;
+  LayoutDetector detector;
   Buffer buffer;
   std::size_t read = 0;
   const std::size_t before = allocations;
   for (const std::string& datagram : good) {
-    const auto decoded = decode(datagram, sense);
+    const auto decoded = decode(datagram, detector);
     if (!decoded) continue;
     ++read;
     for (const Encoding encoding : {Encoding::ascii, Encoding::binary}) {
@@ -79,7 +79,7 @@ TEST(Allocation, NoneWhileReadingAndWriting) {
     }
   }
   std::size_t refused = 0;
-  for (const std::string& datagram : bad) refused += decode(datagram, sense) ? 0U : 1U;
+  for (const std::string& datagram : bad) refused += decode(datagram, detector) ? 0U : 1U;
   EXPECT_EQ(allocations, before);
   EXPECT_EQ(read, good.size());
   EXPECT_EQ(refused, bad.size());

@@ -34,9 +34,9 @@ std::string fault_of(const Result& result) {
   return result ? "no fault" : brief(result.error());
 }
 
-std::string decode_fault(const std::string& datagram, const LayoutChoice& said = {}) {
-  LayoutSense sense(said);
-  return fault_of(decode(datagram, sense));
+std::string decode_fault(const std::string& datagram, const LayoutChoice& given = {}) {
+  LayoutDetector detector(given);
+  return fault_of(decode(datagram, detector));
 }
 
 const std::string good_euler = "11 1 2 3 4 5 6 40 0 0 0 0 4 2 99";
@@ -202,7 +202,7 @@ TEST(Faults, NumbersThatAreNotFiniteAreNotWritten) {
 }
 
 /// The transform that the format does not select is not written, so it may be anything.
-TEST(Faults, WhatIsNotWrittenIsNotJudged) {
+TEST(Faults, WhatIsNotWrittenIsNotChecked) {
   CameraParams p;
   p.format = euler;
   p.matrix.fill(nan);
@@ -264,7 +264,7 @@ TEST(Faults, ACounterTooWideForItsPlaceIsNotWritten) {
 constexpr Reason reasons[] = {Reason::too_long,     Reason::truncated,       Reason::bad_magic,
                               Reason::bad_type,     Reason::bad_encoding,    Reason::not_a_number,
                               Reason::out_of_range, Reason::not_finite,      Reason::trailing_text,
-                              Reason::wrong_size,   Reason::layout_mismatch, Reason::no_sound_layout};
+                              Reason::wrong_size,   Reason::layout_mismatch, Reason::no_valid_layout};
 
 TEST(FaultNames, AreShortDistinctAndExplained) {
   std::set<std::string> names, lines;

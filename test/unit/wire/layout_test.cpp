@@ -62,7 +62,7 @@ TEST(LayoutChoice, OtherWordsAreRefusedWithThoseAllowed) {
   }
 }
 
-TEST(LayoutChoice, FallsBackForWhatIsNotSaid) {
+TEST(LayoutChoice, FallsBackForWhatIsNotGiven) {
   const Layout fallback{Generation::document, Abi::i386, ByteOrder::big};
   EXPECT_EQ(resolve({}, fallback), fallback);
   EXPECT_EQ(resolve({Generation::identified, {}, {}}, fallback),

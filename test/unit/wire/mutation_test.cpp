@@ -1,4 +1,4 @@
-// Datagrams of the field, damaged: whatever comes of them, it is no wrong record.
+// Damaged datagrams of the field never become a wrong record.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -65,13 +65,13 @@ class Damage {
 TEST(Mutation, TenThousandDamagedDatagrams) {
   const auto all = all_datagrams();
   Damage damage(20251122);
-  LayoutSense kept;
+  LayoutDetector kept;
   for (int i = 0; i < 10000; ++i) {
     const std::string& one = all[damage.below(all.size())];
     const std::string& other = all[damage.below(all.size())];
     const std::string bad = i % 3 == 0 ? damage.flip(one) : i % 3 == 1 ? damage.cut(one) : damage.splice(one, other);
     const ExactCopy copy(bad);
-    LayoutSense fresh;
+    LayoutDetector fresh;
     ASSERT_EQ(test::broken_claim(copy.view(), fresh), "") << "datagram " << i;
     ASSERT_EQ(test::broken_claim(copy.view(), kept), "") << "datagram " << i;
   }
@@ -83,8 +83,8 @@ TEST(Mutation, ACutTextIsAFaultUpToItsLastNumber) {
     const std::size_t last_number = whole.rfind(' ') + 1;
     for (std::size_t size = 0; size <= last_number; ++size) {
       const ExactCopy copy(whole.substr(0, size));
-      LayoutSense sense;
-      const auto read = decode(copy.view(), sense);
+      LayoutDetector detector;
+      const auto read = decode(copy.view(), detector);
       ASSERT_FALSE(read) << size << " bytes of " << whole;
       EXPECT_THAT(read.error().reason, AnyOf(Reason::truncated, Reason::not_a_number)) << size << " bytes of " << whole;
     }
@@ -95,14 +95,14 @@ TEST(Mutation, ACutTextIsAFaultUpToItsLastNumber) {
 /// identified little-endian one then means the very same, and a matrix of the document's generation is one of a camera.
 TEST(Mutation, ACutBinaryRecordIsAFault) {
   for (const std::string& whole : datagrams("binary_hex")) {
-    LayoutSense reference_sense;
-    const auto reference = decode(whole, reference_sense);
+    LayoutDetector reference_detector;
+    const auto reference = decode(whole, reference_detector);
     ASSERT_TRUE(reference);
     const bool document = reference->form.layout.generation == Generation::document;
     for (std::size_t size = 0; size < whole.size(); ++size) {
       const ExactCopy copy(whole.substr(0, size));
-      LayoutSense sense;
-      const auto read = decode(copy.view(), sense);
+      LayoutDetector detector;
+      const auto read = decode(copy.view(), detector);
       if (!read) continue;
       ASSERT_EQ(size, header_size + 196);
       if (!document) {
@@ -110,8 +110,8 @@ TEST(Mutation, ACutBinaryRecordIsAFault) {
       } else {
         ASSERT_EQ(std::get<CameraParams>(read->record).format, 0U);
       }
-      LayoutSense said({{}, Abi::lp64, {}});
-      EXPECT_FALSE(decode(copy.view(), said));
+      LayoutDetector given({{}, Abi::lp64, {}});
+      EXPECT_FALSE(decode(copy.view(), given));
     }
   }
 }
@@ -120,18 +120,18 @@ TEST(Mutation, ACutBinaryRecordIsAFault) {
 TEST(Mutation, ABadDatagramLeavesNothingBehind) {
   Damage damage(7);
   for (const char* const key : {"ascii_hex", "binary_hex"}) {
-    LayoutSense sense;
+    LayoutDetector detector;
     const auto all = datagrams(key);
     Buffer buffer;
     for (std::size_t i = 0; i + 1 < 256; ++i) {
-      LayoutSense reference_sense;
-      const auto reference = decode(all[i], reference_sense);
+      LayoutDetector reference_detector;
+      const auto reference = decode(all[i], reference_detector);
       ASSERT_TRUE(reference);
       std::copy(all[i + 1].begin(), all[i + 1].end(), buffer.begin());
       const std::size_t cut = damage.below(all[i + 1].size() - 40);
-      EXPECT_FALSE(decode(std::string_view(buffer.data(), cut), sense));
+      EXPECT_FALSE(decode(std::string_view(buffer.data(), cut), detector));
       std::copy(all[i].begin(), all[i].end(), buffer.begin());
-      const auto read = decode(std::string_view(buffer.data(), all[i].size()), sense);
+      const auto read = decode(std::string_view(buffer.data(), all[i].size()), detector);
       ASSERT_TRUE(read);
       EXPECT_EQ(bits_of(read->record), bits_of(reference->record));
     }

@@ -28,13 +28,15 @@ void for_all_layouts(Visit visit) {
   }
 }
 
-LayoutSense told(Layout layout) { return LayoutSense(LayoutChoice{layout.generation, layout.abi, layout.byte_order}); }
+LayoutDetector given(Layout layout) {
+  return LayoutDetector(LayoutChoice{layout.generation, layout.abi, layout.byte_order});
+}
 
 template <class T>
 void expect_back(const T& record, WireForm form) {
-  LayoutSense sense = told(form.layout);
+  LayoutDetector detector = given(form.layout);
   const std::string datagram = encoded(record, form);
-  const auto read = decode(datagram, sense);
+  const auto read = decode(datagram, detector);
   ASSERT_TRUE(read) << describe(read.error()) << ", " << describe(form.layout);
   EXPECT_EQ(read->form.encoding, form.encoding);
   T expected = record;

@@ -48,8 +48,8 @@ class FieldVectors : public testing::TestWithParam<Set> {
 };
 
 template <class T>
-std::optional<T> decoded(const std::string& datagram, LayoutSense& sense, WireForm* form = nullptr) {
-  const auto result = decode(datagram, sense);
+std::optional<T> decoded(const std::string& datagram, LayoutDetector& detector, WireForm* form = nullptr) {
+  const auto result = decode(datagram, detector);
   EXPECT_TRUE(result) << describe(result.error());
   if (!result) return std::nullopt;
   EXPECT_TRUE(std::holds_alternative<T>(result->record));
@@ -59,7 +59,7 @@ std::optional<T> decoded(const std::string& datagram, LayoutSense& sense, WireFo
 
 TEST_P(FieldVectors, BinaryParamsAreTheFieldsBitForBit) {
   for (const auto& line : params()) {
-    LayoutSense fresh;
+    LayoutDetector fresh;
     WireForm form;
     const auto read = decoded<CameraParams>(from_hex(line["binary_hex"].GetString()), fresh, &form);
     ASSERT_TRUE(read);
@@ -73,23 +73,23 @@ TEST_P(FieldVectors, BinaryParamsAreTheFieldsBitForBit) {
 }
 
 TEST_P(FieldVectors, AsciiParamsAreWhatTheFieldsReaderMakesOfThem) {
-  LayoutSense sense;
+  LayoutDetector detector;
   for (const auto& line : params()) {
     WireForm form;
-    const auto read = decoded<CameraParams>(from_hex(line["ascii_hex"].GetString()), sense, &form);
+    const auto read = decoded<CameraParams>(from_hex(line["ascii_hex"].GetString()), detector, &form);
     ASSERT_TRUE(read);
     EXPECT_EQ(bits_of(*read), bits_of(params_of(line["ascii_parsed"]))) << "mask " << line["mask"].GetUint();
     EXPECT_EQ(form.encoding, Encoding::ascii);
   }
-  EXPECT_FALSE(sense.seen());
+  EXPECT_FALSE(detector.seen());
 }
 
 TEST_P(FieldVectors, ConstantsAreTheFieldsBitForBit) {
   for (const auto& line : constants()) {
-    LayoutSense sense;
+    LayoutDetector detector;
     WireForm form;
-    const auto ascii = decoded<CameraConstants>(from_hex(line["ascii_hex"].GetString()), sense);
-    const auto binary = decoded<CameraConstants>(from_hex(line["binary_hex"].GetString()), sense, &form);
+    const auto ascii = decoded<CameraConstants>(from_hex(line["ascii_hex"].GetString()), detector);
+    const auto binary = decoded<CameraConstants>(from_hex(line["binary_hex"].GetString()), detector, &form);
     ASSERT_TRUE(ascii && binary);
     EXPECT_EQ(bits_of(*ascii), bits_of(constants_of(line["ascii_parsed"])));
     EXPECT_EQ(bits_of(*binary), bits_of(constants_of(line["fields"])));
@@ -122,13 +122,13 @@ TEST_P(FieldVectors, WrittenBinaryIsTheSameBytes) {
 
 TEST_P(FieldVectors, WrittenAsciiReadsBackAsTheVerySameFields) {
   Buffer buffer;
-  LayoutSense sense;
+  LayoutDetector detector;
   for (const auto& line : params()) {
     const auto p = params_of(line["fields"]);
     const auto written = encode(p, {Encoding::ascii, {}}, buffer);
     ASSERT_TRUE(written) << describe(written.error());
     EXPECT_EQ(written->back(), '\0');
-    const auto read = decoded<CameraParams>(std::string(*written), sense);
+    const auto read = decoded<CameraParams>(std::string(*written), detector);
     ASSERT_TRUE(read);
     EXPECT_EQ(bits_of(*read), bits_of(p));
   }
@@ -136,7 +136,7 @@ TEST_P(FieldVectors, WrittenAsciiReadsBackAsTheVerySameFields) {
     const auto c = constants_of(line["fields"]);
     const auto written = encode(c, {Encoding::ascii, {}}, buffer);
     ASSERT_TRUE(written) << describe(written.error());
-    const auto read = decoded<CameraConstants>(std::string(*written), sense);
+    const auto read = decoded<CameraConstants>(std::string(*written), detector);
     ASSERT_TRUE(read);
     EXPECT_EQ(bits_of(*read), bits_of(c));
   }

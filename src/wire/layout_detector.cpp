@@ -1,14 +1,13 @@
-#include "layout_sense.h"
+#include "layout_detector.h"
 
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 
-#include "bytes.h"
-#include "fields.h"
 #include "rigid.h"
 #include "shape.h"
+#include "trk_bridge/wire/fields.h"
 
 namespace trk_bridge::wire {
 
@@ -23,7 +22,7 @@ constexpr std::uint32_t small_number = 0x10000;
 /// A first word below this, before a zero, is rather the number of a camera than a format.
 constexpr std::uint32_t camera_numbers = 16;
 
-/// The layouts that have one size and are not ruled out by what was said. Of those that differ only in the counter
+/// The layouts that have one size and are not ruled out by what the user gave. Of those that differ only in the counter
 /// `layouts` has the first.
 struct Candidates {
   std::array<Layout, generations.size() * byte_orders.size()> layouts{};
@@ -36,7 +35,7 @@ struct Candidates {
 };
 
 template <class Size>
-Candidates candidates_for(std::size_t size, const LayoutChoice& said, Size size_of) noexcept {
+Candidates candidates_for(std::size_t size, const LayoutChoice& given, Size size_of) noexcept {
   Candidates found;
   for (const Generation generation : generations) {
     for (const ByteOrder byte_order : byte_orders) {
@@ -45,7 +44,7 @@ Candidates candidates_for(std::size_t size, const LayoutChoice& said, Size size_
         const Layout layout{generation, abi, byte_order};
         if (size_of(layout) != size) continue;
         found.size_known = true;
-        if (taken || resolve(said, layout) != layout) continue;
+        if (taken || resolve(given, layout) != layout) continue;
         found.layouts[found.count++] = layout;
         taken = true;
       }
@@ -54,8 +53,8 @@ Candidates candidates_for(std::size_t size, const LayoutChoice& said, Size size_
   return found;
 }
 
-/// A number that a camera could have, or none at all (its own fault, told later). Bytes that never were a double seldom
-/// look like one.
+/// A number that a camera could have, or one that is not finite, a fault of its own. Bytes that never were a double
+/// seldom look like one.
 bool is_plausible(double value) noexcept {
   const double magnitude = std::abs(value);
   return !std::isfinite(value) || value == 0 || (magnitude > 1e-50 && magnitude < 1e12);
@@ -74,7 +73,7 @@ bool transform_fits(std::string_view image, Layout layout, std::uint32_t format)
   for (std::size_t i = 0; i < euler_numbers; ++i) {
     if (!is_plausible(matrix[i])) return false;
   }
-  // Focus and aperture stay out: there are many ways to say infinity.
+  // Focus and aperture stay out: senders write infinity in many ways.
   constexpr std::size_t lens_numbers_before_focus = 5;
   for (std::size_t i = 0; i < lens_numbers_before_focus; ++i) {
     if (!is_plausible(load_double(image.data() + shape.lens + i * sizeof(double), layout.byte_order))) return false;
@@ -104,8 +103,8 @@ struct Reading {
   unsigned weight = 0;
 };
 
-Reading judge(std::string_view image, Layout layout, std::optional<Generation> known,
-              std::optional<Layout> seen) noexcept {
+Reading rate(std::string_view image, Layout layout, std::optional<Generation> known,
+             std::optional<Layout> seen) noexcept {
   const ParamsShape shape = params_shape(layout.generation, layout.abi);
   const auto first = load<std::uint32_t>(image.data(), layout.byte_order);
   const auto second = load<std::uint32_t>(image.data() + 4, layout.byte_order);
@@ -125,7 +124,7 @@ Reading judge(std::string_view image, Layout layout, std::optional<Generation> k
 
 struct Choice {
   Reading best;
-  bool contested = false;  ///< the other generation would read as well
+  bool ambiguous = false;  ///< the other generation would read as well
 };
 
 Choice choose(std::string_view image, const Candidates& candidates, std::optional<Generation> known,
@@ -133,13 +132,13 @@ Choice choose(std::string_view image, const Candidates& candidates, std::optiona
   std::array<Reading, generations.size() * byte_orders.size()> readings;
   std::size_t best = 0;
   for (std::size_t i = 0; i < candidates.count; ++i) {
-    readings[i] = judge(image, candidates.layouts[i], known, seen);
+    readings[i] = rate(image, candidates.layouts[i], known, seen);
     if (readings[i].weight > readings[best].weight) best = i;
   }
   Choice choice{readings[best]};
   for (std::size_t i = 0; i < candidates.count; ++i) {
     const bool other = readings[i].layout.generation != choice.best.layout.generation;
-    if (other && readings[i].fits && readings[i].words > 0) choice.contested = true;
+    if (other && readings[i].fits && readings[i].words > 0) choice.ambiguous = true;
   }
   return choice;
 }
@@ -148,79 +147,78 @@ bool is_picture_size(std::int32_t value) noexcept {
   return std::abs(static_cast<std::int64_t>(value)) < std::int64_t{small_number};
 }
 
-bool is_sound(const CameraConstants& c) noexcept {
-  for (const std::int32_t* const value : pixels_of(c)) {
-    if (!is_picture_size(*value)) return false;
-  }
-  for (const double* const value : sizes_of(c)) {
-    if (!is_plausible(*value)) return false;
-  }
+bool is_valid(const CameraConstants& c) noexcept {
+  bool valid = true;
+  for_each_image_field([&valid](const Field&, std::int32_t value) { valid = valid && is_picture_size(value); }, c);
+  for_each_chip_field([&valid](const Field&, double value) { valid = valid && is_plausible(value); }, c);
   // A size has both its sides or none: when the id is taken for the width, one is missing.
-  return (c.image_width == 0) == (c.image_height == 0) && (c.chip_width == 0) == (c.chip_height == 0);
+  return valid && (c.image_width == 0) == (c.image_height == 0) && (c.chip_width == 0) == (c.chip_height == 0);
 }
 
 }  // namespace
 
-std::uint64_t LayoutSenseAccess::counter(std::string_view image, Layout& layout, LayoutSense& sense) noexcept {
+std::uint64_t LayoutDetectorAccess::counter(std::string_view image, Layout& layout, LayoutDetector& detector) noexcept {
   constexpr std::uint64_t most_lost = 0x10000;
   constexpr unsigned half = 32;
   const char* const at = image.data() + params_shape(layout.generation, Abi::lp64).counter;
   const auto wide = load<std::uint64_t>(at, layout.byte_order);
-  if (sense.last_wide_counter_) {
-    const std::uint64_t last = *sense.last_wide_counter_;
-    if (wide >> half == (last >> half) + 1 && wide - last < most_lost) sense.counter_abi_ = Abi::lp64;
+  if (detector.last_wide_counter_) {
+    const std::uint64_t last = *detector.last_wide_counter_;
+    if (wide >> half == (last >> half) + 1 && wide - last < most_lost) detector.counter_abi_ = Abi::lp64;
   }
-  sense.last_wide_counter_ = wide;
-  if (wide >> half != 0 && !sense.counter_abi_) sense.counter_abi_ = Abi::llp64;
-  layout.abi = sense.counter_abi_.value_or(Abi::lp64);
+  detector.last_wide_counter_ = wide;
+  if (wide >> half != 0 && !detector.counter_abi_) detector.counter_abi_ = Abi::llp64;
+  layout.abi = detector.counter_abi_.value_or(Abi::lp64);
   return layout.abi == Abi::lp64 ? wide : load<std::uint32_t>(at, layout.byte_order);
 }
 
-tl::expected<Decoded, Fault> LayoutSenseAccess::params(std::string_view image, LayoutSense& sense) noexcept {
-  const LayoutChoice& said = sense.said_;
-  const Candidates candidates = candidates_for(image.size(), said, params_size);
+tl::expected<Decoded, Fault> LayoutDetectorAccess::params(std::string_view image, LayoutDetector& detector) noexcept {
+  const LayoutChoice& given = detector.given_;
+  const Candidates candidates = candidates_for(image.size(), given, params_size);
   if (candidates.count == 0) return tl::unexpected(candidates.fault_if_none());
 
-  const auto known = sense.told_by_constants_ ? sense.told_by_constants_ : sense.evident_;
-  const auto [best, contested] = choose(image, candidates, known, sense.seen_);
-  if (!best.fits && !said.generation) return tl::unexpected(Fault{Reason::no_sound_layout});
+  const auto known =
+      detector.generation_of_constants_ ? detector.generation_of_constants_ : detector.only_possible_generation_;
+  const auto [best, ambiguous] = choose(image, candidates, known, detector.seen_);
+  if (!best.fits && !given.generation) return tl::unexpected(Fault{Reason::no_valid_layout});
   Layout layout = best.layout;
   auto params = params_from_image(image, layout);
   if (!params) return tl::unexpected(params.error());
-  if (!said.abi && layout.abi == Abi::lp64) params->counter = counter(image, layout, sense);
+  if (!given.abi && layout.abi == Abi::lp64) params->counter = counter(image, layout, detector);
 
-  if (best.words == 2 && !contested) sense.evident_ = layout.generation;
-  sense.seen_ = layout;
+  if (best.words == 2 && !ambiguous) detector.only_possible_generation_ = layout.generation;
+  detector.seen_ = layout;
   const bool same_either_way = params->id == 0 && params->format == 0;
-  return Decoded{*params, {Encoding::binary, layout}, contested && !best.known && !same_either_way};
+  return Decoded{*params, {Encoding::binary, layout}, ambiguous && !best.known && !same_either_way};
 }
 
-tl::expected<Decoded, Fault> LayoutSenseAccess::constants(std::string_view image, LayoutSense& sense) noexcept {
-  const LayoutChoice& said = sense.said_;
-  const Candidates candidates = candidates_for(image.size(), said, constants_size);
+tl::expected<Decoded, Fault> LayoutDetectorAccess::constants(std::string_view image,
+                                                             LayoutDetector& detector) noexcept {
+  const LayoutChoice& given = detector.given_;
+  const Candidates candidates = candidates_for(image.size(), given, constants_size);
   if (candidates.count == 0) return tl::unexpected(candidates.fault_if_none());
 
   std::optional<Layout> chosen;
-  bool sound = false;
+  bool valid = false;
   for (const Layout layout : candidates) {
     const auto constants = constants_from_image(image, layout);
-    const bool this_sound = constants && is_sound(*constants);
-    const bool as_seen = sense.seen_ && sense.seen_->byte_order == layout.byte_order;
-    if (!chosen || (this_sound && !sound) || (this_sound == sound && as_seen)) {
+    const bool this_valid = constants && is_valid(*constants);
+    const bool as_seen = detector.seen_ && detector.seen_->byte_order == layout.byte_order;
+    if (!chosen || (this_valid && !valid) || (this_valid == valid && as_seen)) {
       chosen = layout;
-      sound = this_sound;
+      valid = this_valid;
     }
   }
   const auto constants = constants_from_image(image, *chosen);
   if (!constants) return tl::unexpected(constants.error());
-  if (!sound && !said.generation) return tl::unexpected(Fault{Reason::no_sound_layout});
+  if (!valid && !given.generation) return tl::unexpected(Fault{Reason::no_valid_layout});
 
   Layout layout = *chosen;
-  if (!said.abi && sense.seen_ && constants_size({layout.generation, sense.seen_->abi}) == image.size()) {
-    layout.abi = sense.seen_->abi;
+  if (!given.abi && detector.seen_ && constants_size({layout.generation, detector.seen_->abi}) == image.size()) {
+    layout.abi = detector.seen_->abi;
   }
-  sense.told_by_constants_ = layout.generation;
-  sense.seen_ = layout;
+  detector.generation_of_constants_ = layout.generation;
+  detector.seen_ = layout;
   return Decoded{*constants, {Encoding::binary, layout}};
 }
 

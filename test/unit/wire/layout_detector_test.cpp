@@ -1,4 +1,4 @@
-// Layouts found out from the records themselves.
+// Layouts detected from the records themselves.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ void put_word(std::string& datagram, std::size_t offset, std::uint32_t word, Byt
 }
 
 /// The datagram with `word` wherever its layout has padding, and in what Euler angles leave of the union.
-std::string with_rubbish(std::string datagram, const CameraParams& p, Layout as, std::uint32_t word) {
+std::string with_padding(std::string datagram, const CameraParams& p, Layout as, std::uint32_t word) {
   const auto data = test::bytes_with_data(p, as);
   for (std::size_t offset = 0; offset + 4 <= data.size(); offset += 4) {
     if (!data[offset]) put_word(datagram, offset, word, as.byte_order);
@@ -57,36 +57,36 @@ std::string with_rubbish(std::string datagram, const CameraParams& p, Layout as,
   return datagram;
 }
 
-void expect_read(const std::string& datagram, LayoutSense& sense, const CameraParams& expected, Layout as) {
-  const auto read = decode(datagram, sense);
+void expect_read(const std::string& datagram, LayoutDetector& detector, const CameraParams& expected, Layout as) {
+  const auto read = decode(datagram, detector);
   ASSERT_TRUE(read) << describe(read.error()) << ", " << describe(as);
   EXPECT_EQ(bits_of(read->record), bits_of(expected)) << describe(as) << ", read as " << describe(read->form.layout);
 }
 
 const std::uint32_t masks_without_doubt[] = {0x001, 0x011, 0x013, 0x3BF, 0x012, 0x01E, 0x092, 0x200, 0x010};
 
-TEST(LayoutSense, FindsEveryLayoutFromOneRecord) {
+TEST(LayoutDetector, FindsEveryLayoutFromOneRecord) {
   RandomRecords random(1);
   for (const Layout as : all_layouts()) {
     for (const std::uint32_t mask : masks_without_doubt) {
       const CameraParams p = random.params(mask);
-      LayoutSense sense;
-      expect_read(binary(p, as), sense, p, as);
-      ASSERT_TRUE(sense.seen());
-      EXPECT_EQ(sense.seen()->generation, as.generation) << describe(as) << ", mask " << mask;
-      EXPECT_EQ(sense.seen()->byte_order, as.byte_order) << describe(as) << ", mask " << mask;
+      LayoutDetector detector;
+      expect_read(binary(p, as), detector, p, as);
+      ASSERT_TRUE(detector.seen());
+      EXPECT_EQ(detector.seen()->generation, as.generation) << describe(as) << ", mask " << mask;
+      EXPECT_EQ(detector.seen()->byte_order, as.byte_order) << describe(as) << ", mask " << mask;
     }
   }
 }
 
-TEST(LayoutSense, FindsEveryMaskOnceConstantsWereSeen) {
+TEST(LayoutDetector, FindsEveryMaskOnceConstantsWereSeen) {
   RandomRecords random(2);
   for (const Layout as : all_layouts()) {
-    LayoutSense sense;
-    ASSERT_TRUE(decode(binary(random.constants(), as), sense));
+    LayoutDetector detector;
+    ASSERT_TRUE(decode(binary(random.constants(), as), detector));
     for (std::uint32_t mask = 0; mask <= known_format_bits; ++mask) {
       const CameraParams p = random.params(mask);
-      const auto read = decode(binary(p, as), sense);
+      const auto read = decode(binary(p, as), detector);
       ASSERT_TRUE(read) << describe(as) << ", mask " << mask;
       ASSERT_EQ(bits_of(read->record), bits_of(p)) << describe(as) << ", mask " << mask;
       EXPECT_EQ(read->form.layout.generation, as.generation);
@@ -96,7 +96,7 @@ TEST(LayoutSense, FindsEveryMaskOnceConstantsWereSeen) {
   }
 }
 
-TEST(LayoutSense, FindsIdentifiedCamerasOfAnyNumber) {
+TEST(LayoutDetector, FindsIdentifiedCamerasOfAnyNumber) {
   RandomRecords random(3);
   for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
     const Layout as = layout(Generation::identified, Abi::lp64, order);
@@ -104,20 +104,20 @@ TEST(LayoutSense, FindsIdentifiedCamerasOfAnyNumber) {
       for (std::uint32_t id = 0; id < 300; ++id) {
         CameraParams p = random.params(mask);
         p.id = id;
-        LayoutSense sense;
-        expect_read(binary(p, as), sense, p, as);
+        LayoutDetector detector;
+        expect_read(binary(p, as), detector, p, as);
       }
     }
   }
 }
 
-TEST(LayoutSense, TheDefaultFormatOfLowNumberedCamerasIsIdentified) {
+TEST(LayoutDetector, TheDefaultFormatOfLowNumberedCamerasIsIdentified) {
   RandomRecords random(4);
   for (std::uint32_t id = 1; id < 16; ++id) {
     CameraParams p = random.params(0);
     p.id = id;
-    LayoutSense sense;
-    const auto read = decode(binary(p, identified_lp64), sense);
+    LayoutDetector detector;
+    const auto read = decode(binary(p, identified_lp64), detector);
     ASSERT_TRUE(read);
     EXPECT_EQ(bits_of(read->record), bits_of(p)) << id;
     // An odd number would be the word `euler`, and in its place stands a matrix.
@@ -125,74 +125,74 @@ TEST(LayoutSense, TheDefaultFormatOfLowNumberedCamerasIsIdentified) {
   }
 }
 
-TEST(LayoutSense, AMatrixFormatBeforeAZeroIsADocumentsGuess) {
+TEST(LayoutDetector, AMatrixFormatBeforeAZeroIsADocumentsGuess) {
   RandomRecords random(5);
   const CameraParams p = random.params(0x12);
-  LayoutSense sense;
-  const auto guess = decode(binary(p, document_lp64), sense);
+  LayoutDetector detector;
+  const auto guess = decode(binary(p, document_lp64), detector);
   ASSERT_TRUE(guess);
   EXPECT_EQ(bits_of(guess->record), bits_of(p));
   EXPECT_TRUE(guess->layout_guessed);
 
   CameraParams camera_18 = random.params(0);
   camera_18.id = 0x12;
-  ASSERT_TRUE(decode(binary(random.constants(), identified_lp64), sense));
-  const auto known = decode(binary(camera_18, identified_lp64), sense);
+  ASSERT_TRUE(decode(binary(random.constants(), identified_lp64), detector));
+  const auto known = decode(binary(camera_18, identified_lp64), detector);
   ASSERT_TRUE(known);
   EXPECT_EQ(bits_of(known->record), bits_of(camera_18));
   EXPECT_FALSE(known->layout_guessed);
 }
 
-TEST(LayoutSense, ARecordThatOnlyOneGenerationCanReadTellsTheNextOnes) {
+TEST(LayoutDetector, ARecordThatOnlyOneGenerationCanReadDecidesForTheNextOnes) {
   RandomRecords random(6);
-  LayoutSense sense;
+  LayoutDetector detector;
   const CameraParams certain = random.params(euler);
-  expect_read(binary(certain, document_lp64), sense, certain, document_lp64);
+  expect_read(binary(certain, document_lp64), detector, certain, document_lp64);
   const CameraParams doubtful = random.params(camera_y_up);
-  const auto read = decode(binary(doubtful, document_lp64), sense);
+  const auto read = decode(binary(doubtful, document_lp64), detector);
   ASSERT_TRUE(read);
   EXPECT_EQ(bits_of(read->record), bits_of(doubtful));
   EXPECT_FALSE(read->layout_guessed);
 }
 
-TEST(LayoutSense, TheOnlySoundReadingWinsOverTheConstants) {
+TEST(LayoutDetector, TheOnlyReadingThatFitsWinsOverTheConstants) {
   RandomRecords random(7);
-  LayoutSense sense;
-  ASSERT_TRUE(decode(binary(random.constants(), identified_lp64), sense));
+  LayoutDetector detector;
+  ASSERT_TRUE(decode(binary(random.constants(), identified_lp64), detector));
   const CameraParams document = random.params(0x11);
-  expect_read(binary(document, document_lp64), sense, document, document_lp64);
-  ASSERT_TRUE(decode(binary(random.constants(), document_lp64), sense));
+  expect_read(binary(document, document_lp64), detector, document, document_lp64);
+  ASSERT_TRUE(decode(binary(random.constants(), document_lp64), detector));
   const CameraParams identified = random.params(0x11);
-  expect_read(binary(identified, identified_lp64), sense, identified, identified_lp64);
+  expect_read(binary(identified, identified_lp64), detector, identified, identified_lp64);
 }
 
-TEST(LayoutSense, ALoneZeroFormatMeansTheSameInBothGenerations) {
+TEST(LayoutDetector, ALoneZeroFormatMeansTheSameInBothGenerations) {
   RandomRecords random(8);
   const CameraParams p = random.params(0);
-  LayoutSense sense;
-  const auto read = decode(binary(p, document_lp64), sense);
+  LayoutDetector detector;
+  const auto read = decode(binary(p, document_lp64), detector);
   ASSERT_TRUE(read);
   EXPECT_EQ(bits_of(read->record), bits_of(p));
   EXPECT_FALSE(read->layout_guessed);
 }
 
-TEST(LayoutSense, RubbishInPaddingDoesNotLeak) {
+TEST(LayoutDetector, PaddingMayHaveAnyValue) {
   RandomRecords random(9);
   for (const Layout as : all_layouts()) {
     for (const std::uint32_t word : {0xDEADBEEFU, 0xCCCCCCCCU, 0xFFFFFFFFU, 0x7FF80000U, 0x00400000U}) {
       for (const std::uint32_t mask : {0x011U, 0x3BFU, 0x012U, 0x01EU}) {
         const CameraParams p = random.params(mask);
-        const std::string datagram = with_rubbish(binary(p, as), p, as, word);
-        LayoutSense fresh;
+        const std::string datagram = with_padding(binary(p, as), p, as, word);
+        LayoutDetector fresh;
         expect_read(datagram, fresh, p, as);
-        LayoutSense told({as.generation, as.abi, as.byte_order});
-        expect_read(datagram, told, p, as);
+        LayoutDetector given({as.generation, as.abi, as.byte_order});
+        expect_read(datagram, given, p, as);
       }
     }
   }
 }
 
-TEST(LayoutSense, AStaleMatrixBehindEulerAnglesDoesNotCount) {
+TEST(LayoutDetector, AStaleMatrixBehindEulerAnglesDoesNotCount) {
   RandomRecords random(10);
   CameraParams p = random.params(0x11);
   p.euler.pan = 0;
@@ -203,65 +203,65 @@ TEST(LayoutSense, AStaleMatrixBehindEulerAnglesDoesNotCount) {
     const std::string stale = binary(matrix, as);
     const std::size_t begin = header_size + (as.abi == Abi::i386 && as.generation == Generation::document ? 4 : 8);
     datagram.replace(begin + 48, 80, stale, begin + 48, 80);
-    LayoutSense sense;
-    expect_read(datagram, sense, p, as);
+    LayoutDetector detector;
+    expect_read(datagram, detector, p, as);
   }
 }
 
-TEST(LayoutSense, AMatrixNeedNotBeARotation) {
+TEST(LayoutDetector, AMatrixNeedNotBeARotation) {
   RandomRecords random(11);
   for (const Layout as : all_layouts()) {
     for (const double scale : {1.002, 0.5, 1000.0}) {
       CameraParams p = random.params(0x12);
       for (std::size_t i = 0; i < 12; ++i) p.matrix[i] *= scale;
-      LayoutSense sense;
-      expect_read(binary(p, as), sense, p, as);
+      LayoutDetector detector;
+      expect_read(binary(p, as), detector, p, as);
       if (as.generation == Generation::document) continue;
       p.id = 1;
-      LayoutSense other;
+      LayoutDetector other;
       expect_read(binary(p, as), other, p, as);
     }
   }
 }
 
-TEST(LayoutSense, UnknownFormatBitsAreKept) {
+TEST(LayoutDetector, UnknownFormatBitsAreKept) {
   RandomRecords random(12);
   for (const std::uint32_t mask : {0x411U, 0x80000011U, 0x1011U}) {
     const CameraParams p = random.params(mask);
     for (const Layout as : all_layouts()) {
-      LayoutSense sense;
-      expect_read(binary(p, as), sense, p, as);
+      LayoutDetector detector;
+      expect_read(binary(p, as), detector, p, as);
     }
   }
   const CameraParams matrix = random.params(0x412);
-  LayoutSense sense;
-  ASSERT_TRUE(decode(binary(random.constants(), identified_lp64), sense));
-  expect_read(binary(matrix, identified_lp64), sense, matrix, identified_lp64);
+  LayoutDetector detector;
+  ASSERT_TRUE(decode(binary(random.constants(), identified_lp64), detector));
+  expect_read(binary(matrix, identified_lp64), detector, matrix, identified_lp64);
 }
 
-TEST(LayoutSense, WhatNoLayoutMakesSenseOfIsRefused) {
+TEST(LayoutDetector, WhatFitsNoLayoutIsRefused) {
   std::string datagram = std::string("DMC01\0PB", 8) + std::string(200, '\x5A');
   for (const std::size_t size : {192U, 196U, 200U}) {
-    LayoutSense sense;
-    const auto read = decode(datagram.substr(0, header_size + size), sense);
+    LayoutDetector detector;
+    const auto read = decode(datagram.substr(0, header_size + size), detector);
     ASSERT_FALSE(read) << size;
-    EXPECT_EQ(read.error().reason, Reason::no_sound_layout);
+    EXPECT_EQ(read.error().reason, Reason::no_valid_layout);
     EXPECT_FALSE(read.error().about_field);
-    EXPECT_FALSE(sense.seen());
+    EXPECT_FALSE(detector.seen());
   }
   datagram[6] = 'C';
   for (const std::size_t size : {56U, 60U, 64U}) {
-    LayoutSense sense;
-    const auto read = decode(datagram.substr(0, header_size + size), sense);
+    LayoutDetector detector;
+    const auto read = decode(datagram.substr(0, header_size + size), detector);
     ASSERT_FALSE(read) << size;
-    EXPECT_EQ(read.error().reason, Reason::no_sound_layout);
+    EXPECT_EQ(read.error().reason, Reason::no_valid_layout);
   }
 }
 
-TEST(LayoutSense, WhatIsSaidOutrightIsNotJudged) {
+TEST(LayoutDetector, AGivenLayoutIsNotChecked) {
   const std::string datagram = std::string("DMC01\0PB", 8) + std::string(200, '\x5A');
-  LayoutSense sense({Generation::identified, Abi::lp64, ByteOrder::little});
-  const auto read = decode(datagram, sense);
+  LayoutDetector detector({Generation::identified, Abi::lp64, ByteOrder::little});
+  const auto read = decode(datagram, detector);
   ASSERT_TRUE(read) << describe(read.error());
   const auto& p = std::get<CameraParams>(read->record);
   EXPECT_EQ(p.id, 0x5A5A5A5AU);
@@ -269,13 +269,13 @@ TEST(LayoutSense, WhatIsSaidOutrightIsNotJudged) {
   EXPECT_EQ(p.counter, 0x5A5A5A5A5A5A5A5AU);
 }
 
-TEST(LayoutSense, ConstantsTellByTheirSize) {
+TEST(LayoutDetector, TheSizeOfConstantsDecides) {
   RandomRecords random(13);
   for (const Layout as : all_layouts()) {
     CameraConstants c = random.constants();
     c.id = as.generation == Generation::identified ? 3 : 0;
-    LayoutSense sense;
-    const auto read = decode(binary(c, as), sense);
+    LayoutDetector detector;
+    const auto read = decode(binary(c, as), detector);
     ASSERT_TRUE(read) << describe(read.error());
     EXPECT_EQ(bits_of(read->record), bits_of(c)) << describe(as);
     EXPECT_EQ(read->form.layout.generation, as.generation);
@@ -284,7 +284,7 @@ TEST(LayoutSense, ConstantsTellByTheirSize) {
   }
 }
 
-TEST(LayoutSense, ATruncatedRecordIsNotOneOfASmallerLayout) {
+TEST(LayoutDetector, ATruncatedRecordIsNotOneOfASmallerLayout) {
   RandomRecords random(14);
   for (const Layout as : all_layouts()) {
     for (const std::uint32_t id : {0U, 1U, 2U}) {
@@ -294,24 +294,24 @@ TEST(LayoutSense, ATruncatedRecordIsNotOneOfASmallerLayout) {
       const std::string whole = binary(c, as);
       for (const std::size_t size : {56U, 60U}) {
         if (size >= constants_size(as)) continue;
-        LayoutSense sense;
-        EXPECT_FALSE(decode(std::string_view(whole).substr(0, header_size + size), sense))
+        LayoutDetector detector;
+        EXPECT_FALSE(decode(std::string_view(whole).substr(0, header_size + size), detector))
             << describe(as) << " cut to " << size << ", id " << id;
       }
       for (const std::uint32_t mask : {0x001U, 0x011U, 0x3BFU, 0x000U, 0x012U}) {
         CameraParams p = random.params(mask);
         p.id = id;
         if (params_size(as) == 192) continue;
-        LayoutSense sense;
-        EXPECT_FALSE(decode(std::string_view(binary(p, as)).substr(0, header_size + 192), sense))
+        LayoutDetector detector;
+        EXPECT_FALSE(decode(std::string_view(binary(p, as)).substr(0, header_size + 192), detector))
             << describe(as) << " cut to 192, mask " << mask << ", id " << id;
       }
     }
   }
 }
 
-std::uint64_t counter_read(const std::string& datagram, LayoutSense& sense) {
-  const auto read = decode(datagram, sense);
+std::uint64_t counter_read(const std::string& datagram, LayoutDetector& detector) {
+  const auto read = decode(datagram, detector);
   if (!read) throw std::runtime_error(describe(read.error()));
   return std::get<CameraParams>(read->record).counter;
 }
@@ -325,12 +325,12 @@ std::string with_counter(std::uint64_t counter, Layout as) {
 TEST(CounterWidth, FourBytesBeforePadding) {
   for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
     const Layout as = layout(Generation::identified, Abi::llp64, order);
-    LayoutSense sense;
+    LayoutDetector detector;
     for (const std::uint32_t counter : {1U, 2U, 77U, 0xFFFFFFFEU, 0xFFFFFFFFU, 0U, 1U}) {
       std::string datagram = with_counter(counter, as);
       put_word(datagram, 196, 0xCDCDCDCD, order);
-      EXPECT_EQ(counter_read(datagram, sense), counter) << describe(as);
-      EXPECT_EQ(sense.seen()->abi, Abi::llp64);
+      EXPECT_EQ(counter_read(datagram, detector), counter) << describe(as);
+      EXPECT_EQ(detector.seen()->abi, Abi::llp64);
     }
   }
 }
@@ -338,10 +338,10 @@ TEST(CounterWidth, FourBytesBeforePadding) {
 TEST(CounterWidth, EightBytesBelowTheLimitAreTheSame) {
   for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
     const Layout as = layout(Generation::identified, Abi::lp64, order);
-    LayoutSense sense;
+    LayoutDetector detector;
     for (const std::uint32_t counter : {0U, 1U, 0xFFFFFFFFU}) {
-      EXPECT_EQ(counter_read(with_counter(counter, as), sense), counter);
-      EXPECT_EQ(sense.seen()->abi, Abi::lp64);
+      EXPECT_EQ(counter_read(with_counter(counter, as), detector), counter);
+      EXPECT_EQ(detector.seen()->abi, Abi::lp64);
     }
   }
 }
@@ -349,19 +349,19 @@ TEST(CounterWidth, EightBytesBelowTheLimitAreTheSame) {
 TEST(CounterWidth, EightBytesSeenToWrapStayEight) {
   for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
     const Layout as = layout(Generation::identified, Abi::lp64, order);
-    LayoutSense sense;
+    LayoutDetector detector;
     for (const auto counter : {0xFFFFFFFEULL, 0x100000001ULL, 0x100000002ULL, 0x500000000ULL}) {
-      EXPECT_EQ(counter_read(with_counter(counter, as), sense), counter) << describe(as);
-      EXPECT_EQ(sense.seen()->abi, Abi::lp64);
+      EXPECT_EQ(counter_read(with_counter(counter, as), detector), counter) << describe(as);
+      EXPECT_EQ(detector.seen()->abi, Abi::lp64);
     }
   }
 }
 
-TEST(CounterWidth, SaidOutrightCounts) {
+TEST(CounterWidth, AGivenAbiIsTaken) {
   const std::string datagram = with_counter(0xCDCDCDCD00000007, identified_lp64);
-  LayoutSense wide({{}, Abi::lp64, {}});
+  LayoutDetector wide({{}, Abi::lp64, {}});
   EXPECT_EQ(counter_read(datagram, wide), 0xCDCDCDCD00000007U);
-  LayoutSense narrow({{}, Abi::llp64, {}});
+  LayoutDetector narrow({{}, Abi::llp64, {}});
   EXPECT_EQ(counter_read(datagram, narrow), 7U);
   EXPECT_EQ(narrow.seen()->abi, Abi::llp64);
 }
@@ -385,11 +385,11 @@ std::vector<std::pair<std::string, CameraParams>> field_params(const FieldSet& s
 
 TEST(FieldSets, WithTheirConstantsSeenFirst) {
   for (const FieldSet& set : field_sets) {
-    LayoutSense sense;
+    LayoutDetector detector;
     const auto constants = test::read_jsonl(std::string("field/") + set.folder + "/constants.jsonl");
-    ASSERT_TRUE(decode(test::from_hex(constants[0]["binary_hex"].GetString()), sense));
+    ASSERT_TRUE(decode(test::from_hex(constants[0]["binary_hex"].GetString()), detector));
     for (const auto& [datagram, fields] : field_params(set)) {
-      const auto read = decode(datagram, sense);
+      const auto read = decode(datagram, detector);
       ASSERT_TRUE(read);
       EXPECT_EQ(bits_of(read->record), bits_of(fields));
       EXPECT_EQ(read->form.layout, set.as);
@@ -403,8 +403,8 @@ TEST(FieldSets, WithoutConstantsInAnyOrder) {
     auto all = field_params(set);
     for (unsigned seed = 0; seed < 20; ++seed) {
       std::shuffle(all.begin(), all.end(), std::mt19937(seed));
-      LayoutSense sense;
-      for (const auto& [datagram, fields] : all) expect_read(datagram, sense, fields, set.as);
+      LayoutDetector detector;
+      for (const auto& [datagram, fields] : all) expect_read(datagram, detector, fields, set.as);
     }
   }
 }
@@ -413,12 +413,12 @@ TEST(FieldSets, AsBigEndianAndAsWindowsWouldSendThem) {
   for (const FieldSet& set : field_sets) {
     for (const Abi abi : {set.as.abi, Abi::llp64}) {
       const Layout as = layout(set.as.generation, abi, ByteOrder::big);
-      LayoutSense sense;
+      LayoutDetector detector;
       for (const auto& [datagram, fields] : field_params(set)) {
         const std::string clean = binary(fields, as);
-        expect_read(clean, sense, fields, as);
-        LayoutSense fresh;
-        expect_read(with_rubbish(clean, fields, as, 0xCDCDCDCD), fresh, fields, as);
+        expect_read(clean, detector, fields, as);
+        LayoutDetector fresh;
+        expect_read(with_padding(clean, fields, as, 0xCDCDCDCD), fresh, fields, as);
       }
     }
   }
