@@ -6,8 +6,8 @@
 
 namespace trk_bridge::nodes {
 
-SinkOutput::SinkOutput(const std::string& url)
-    : url_(url), sink_(transport::open_sink(url)), name_(sink_->name()), log_(name_) {
+SinkOutput::SinkOutput(const trk_bridge::ros1::SinkEndpoint& endpoint)
+    : url_(endpoint.url), sink_(transport::open_sink(endpoint.endpoint)), name_(sink_->name()), log_(name_) {
   last_report_.time = steady_now();
 }
 

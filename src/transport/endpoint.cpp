@@ -290,7 +290,7 @@ Result endpoint_from(const Url& url, Direction direction) {
   if (url.scheme == "shm") return shm_from(url, direction);
   if (url.scheme == "file") return file_from(url, direction);
   if (url.scheme == "memory") return memory_from(url, direction);
-  return tl::make_unexpected("scheme \"" + url.scheme + "\": allowed are udp, shm, file and memory");
+  return tl::make_unexpected("scheme \"" + url.scheme + "\": allowed are udp, shm and file");
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+// The parameters of ros_to_trk.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "ros/parameter_reader.h"
+#include "trk_bridge/ros/outgoing.h"
+#include "trk_bridge/ros/tf_to_trk.h"
+#include "trk_bridge/transport/endpoint.h"
+#include "trk_bridge/wire/record.h"
+
+namespace trk_bridge::ros1 {
+
+/// An endpoint to write, with the URL that it was given as.
+struct SinkEndpoint {
+  std::string url;
+  transport::Endpoint endpoint;
+};
+tl::expected<SinkEndpoint, std::string> parse_sink(const std::string& url);
+
+/// Where ros_to_trk takes its sets from.
+enum class OutgoingInput : std::uint8_t { params, tf };
+
+/// Parameters of the node, with their defaults.
+struct RosToTrkParameters {
+  std::string name;                 ///< the camera's: names its diagnostics
+  std::vector<SinkEndpoint> sinks;  ///< at least one; each is written
+  OutgoingInput input = OutgoingInput::params;
+  OutgoingForm form;     ///< what `format` or `preset`, and `id` say
+  int queue_size = 100;  ///< messages that wait for the node
+
+  // input: params
+  std::optional<wire::CameraConstants> constants;  ///< until some are received
+
+  // input: tf
+  double rate = 50;  ///< Hz
+  std::string studio_frame = "studio";
+  std::string camera_frame;  ///< default: the camera's name
+  TfToTrkOptions tf;         ///< the chip's width and height are required
+};
+
+/// Reads a node's private parameters; `camera_name` names the camera, and its frame where none is given. Throws
+/// ParameterError with every fault.
+RosToTrkParameters read_ros_to_trk_parameters(const XmlRpc::XmlRpcValue& tree, const std::string& camera_name);
+
+}  // namespace trk_bridge::ros1
