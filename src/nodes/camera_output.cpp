@@ -18,7 +18,8 @@ CameraOutput::CameraOutput(::ros::NodeHandle node, const trk_bridge::ros1::Camer
   const auto queue = static_cast<std::uint32_t>(queue_size);
   params_ = node.advertise<trk_bridge::CameraParams>("params", queue);
   constants_ = node.advertise<trk_bridge::CameraConstants>("constants", queue, /*latch=*/true);
-  if (parameters.options.publish_camera_info) camera_info_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", queue);
+  if (parameters.options.publish_camera_info)
+    camera_info_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", queue);
   if (pipeline_.has_constants()) constants_.publish(pipeline_.constants());
   statistics_.store(pipeline_.statistics());
 }

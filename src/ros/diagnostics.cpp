@@ -61,8 +61,7 @@ Finding silence(const CameraReport& now, const CameraOptions& options) {
   return {Condition::constants_only, DiagnosticStatus::WARN, "records come, but no parameters of this camera yet"};
 }
 
-Finding state(const CameraReport& now, const CameraReport& before, const CameraOptions& options,
-              double field_rate) {
+Finding state(const CameraReport& now, const CameraReport& before, const CameraOptions& options, double field_rate) {
   if (now.source.state == SourceState::failed) {
     return {Condition::failed, DiagnosticStatus::ERROR, "the source failed: " + now.source.error};
   }

@@ -167,7 +167,8 @@ bool ParameterReader::number(const std::string& key, double& into, const Range& 
   auto* value = find(key);
   if (value == nullptr) return false;
   const bool is_integer = value->getType() == XmlRpcValue::TypeInt;
-  if (!is_integer && value->getType() != XmlRpcValue::TypeDouble) return refuse(key, text_of(*value), "must be a number");
+  if (!is_integer && value->getType() != XmlRpcValue::TypeDouble)
+    return refuse(key, text_of(*value), "must be a number");
   const double given = is_integer ? static_cast<int&>(*value) : static_cast<double&>(*value);
   if (!range.contains(given)) return refuse(key, text_of(*value), "must be " + range.text());
   into = given;

@@ -28,7 +28,8 @@ void read_shared(ParameterReader& reader, CameraParameters& camera) {
   reader.flag("publish_tf", options.publish_tf);
   reader.flag("publish_camera_info", options.publish_camera_info);
   reader.flag("publish_markers", camera.publish_markers);
-  reader.number("marker_far", camera.marker_far, more_than(marker_near, "metres (the frustum begins at the lower bound)", 1000));
+  reader.number("marker_far", camera.marker_far,
+                more_than(marker_near, "metres (the frustum begins at the lower bound)", 1000));
 }
 
 /// What only one camera can have, and the rules between all that it has.

@@ -35,8 +35,9 @@ ros1::CameraFrames frames_of(const TakeToBagOptions& options) {
   frames.studio = frame("--studio-frame", options.studio_frame);
   frames.camera = frame("--camera-frame", options.camera_frame.value_or(options.camera));
   frames.optical = frame("--optical-frame", options.optical_frame.value_or(options.camera + "_optical"));
-  for (const auto& [one, other] : {std::pair(&frames.camera, &frames.studio), std::pair(&frames.optical, &frames.studio),
-                                   std::pair(&frames.optical, &frames.camera)}) {
+  for (const auto& [one, other] :
+       {std::pair(&frames.camera, &frames.studio), std::pair(&frames.optical, &frames.studio),
+        std::pair(&frames.optical, &frames.camera)}) {
     if (*one == *other) throw BagError("frame " + ros1::shown(*one) + ": studio, camera and optical frame must differ");
   }
   return frames;

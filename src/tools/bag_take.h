@@ -19,8 +19,8 @@ struct TakeToBagOptions {
   std::optional<std::uint32_t> format;
   double field_rate = 50;                    ///< Hz
   std::int64_t midnight = default_midnight;  ///< when the time code was 00:00:00:00:1, ns since 1970 UTC
-  std::optional<std::int64_t> start;  ///< of the first field, ns since 1970 UTC: the time code is left aside
-  std::string compression = "none";   ///< none, bz2 or lz4
+  std::optional<std::int64_t> start;         ///< of the first field, ns since 1970 UTC: the time code is left aside
+  std::string compression = "none";          ///< none, bz2 or lz4
   bool overwrite = false;
 
   /// 1970-01-02: nobody takes it for the day of the recording, which a take does not tell, and ROS can tell it.

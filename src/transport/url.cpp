@@ -29,8 +29,7 @@ tl::expected<std::string, std::string> percent_decoded(std::string_view text) {
 tl::expected<Url, std::string> split_url(std::string_view url) {
   const std::size_t colon = url.find(':');
   if (colon == std::string_view::npos) {
-    return tl::make_unexpected(
-        std::string("no scheme: udp://HOST:PORT, shm:SLOT and file:PATH are allowed"));
+    return tl::make_unexpected(std::string("no scheme: udp://HOST:PORT, shm:SLOT and file:PATH are allowed"));
   }
   Url parts;
   parts.scheme = url.substr(0, colon);

@@ -222,7 +222,8 @@ TEST(Endpoint, Memory) {
 
 TEST(Endpoint, Schemes) {
   for (const char* url : {"tcp://host:1", "UDP://:1", ":7000", "udpx://:1"}) {
-    EXPECT_THAT(read_error(url), AllOf(HasSubstr("scheme"), HasSubstr("udp, shm and file"), Not(HasSubstr("memory")))) << url;
+    EXPECT_THAT(read_error(url), AllOf(HasSubstr("scheme"), HasSubstr("udp, shm and file"), Not(HasSubstr("memory"))))
+        << url;
   }
   for (const char* url : {"", "host", "7000"}) EXPECT_THAT(read_error(url), HasSubstr("no scheme")) << url;
 }
