@@ -79,7 +79,7 @@ class ParameterReader {
   bool id(const std::string& key, std::optional<std::uint32_t>& into);
   /// A map of the ten constants.
   bool constants(const std::string& key, std::optional<wire::CameraConstants>& into);
-  /// Of `diagnostic_period`, which diagnostic_updater reads itself: seconds.
+  /// Checks `diagnostic_period`, seconds, which diagnostic_updater reads itself.
   void diagnostic_period();
   /// A map, for a reader of its own; its faults are shown with this one's.
   std::optional<ParameterReader> map(const std::string& key);

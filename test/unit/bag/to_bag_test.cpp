@@ -8,6 +8,7 @@
 #include <trk_bridge/CameraParams.h>
 
 #include "fixture.h"
+#include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::tools {
 namespace {
