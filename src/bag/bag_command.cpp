@@ -7,9 +7,9 @@
 #include <unistd.h>
 
 #include "cli/arguments.h"
+#include "ros/trk_to_ros_parameters.h"
 #include "base/time_text.h"
 #include "cli/stop_signals.h"
-#include "ros/trk_to_ros_parameters.h"
 
 namespace trk_bridge::bag {
 namespace {
@@ -114,7 +114,7 @@ cli::ExitCode BagCommand::to_bag(cli::LongRun& run) {
   refuse_options_of(of_take_, "from a bag to a take");
   TakeToBagOptions options;
   if (camera_) options.camera = *camera_;
-  if (format_) options.format = *format_;
+  if (format_) options.format = value_of(ros1::parse_published_format(*format_), "--format");
   if (studio_frame_) options.studio_frame = *studio_frame_;
   options.camera_frame = camera_frame_;
   options.optical_frame = optical_frame_;
@@ -137,7 +137,7 @@ cli::ExitCode BagCommand::to_take(cli::LongRun& run) {
   to_take_.field_rate = field_rate_;
   to_take_.overwrite = overwrite_;
   if (studio_frame_) to_take_.studio_frame = *studio_frame_;
-  if (format_ && *format_ != ros1::as_received) to_take_.format = cli::format_from(*format_);
+  if (format_) to_take_.format = value_of(ros1::parse_published_format(*format_), "--format");
   if (input_) to_take_.input = *input_ == "tf" ? BagInput::tf : BagInput::params;
   take_of_bag(from_, to_, to_take_, run, std::cerr);
   return cli::exit_good;

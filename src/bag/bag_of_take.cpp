@@ -10,10 +10,10 @@
 
 #include "bag_take.h"
 #include "bag_timing.h"
+#include "ros/trk_to_ros_parameters.h"
 #include "ros/camera_pipeline.h"
 #include "trk_bridge/ros/frames.h"
 #include "ros/stamper.h"
-#include "ros/trk_to_ros_parameters.h"
 #include "file/part_file.h"
 #include "trk_bridge/transport/source.h"
 #include "file/take_file.h"
@@ -21,21 +21,36 @@
 namespace trk_bridge::bag {
 namespace {
 
-std::string plain(std::string fault) { return fault.substr(fault.find_first_not_of('~')); }
+std::string sound(const tl::expected<std::string, std::string>& parsed, const char* option, const std::string& value) {
+  if (!parsed) throw BagError(std::string(option) + " = " + ros1::shown(value) + ": " + parsed.error());
+  return *parsed;
+}
 
-ros1::CameraParameters camera_parameters(const TakeToBagOptions& options) {
-  ros1::TrkToRosParameters node;
-  auto& camera = node.cameras.emplace_back();
-  camera.name = options.camera;
-  camera.source = "file:take";
-  camera.studio_frame = options.studio_frame;
-  camera.camera_frame = options.camera_frame.value_or(options.camera);
-  camera.optical_frame = options.optical_frame.value_or(options.camera + "_optical");
+/// As trk_to_ros names and checks them.
+ros1::CameraFrames frames_of(const TakeToBagOptions& options) {
+  const auto frame = [](const char* option, const std::string& value) {
+    return sound(ros1::parse_frame(value), option, value);
+  };
+  ros1::CameraFrames frames;
+  frames.studio = frame("--studio-frame", options.studio_frame);
+  frames.camera = frame("--camera-frame", options.camera_frame.value_or(options.camera));
+  frames.optical = frame("--optical-frame", options.optical_frame.value_or(options.camera + "_optical"));
+  for (const auto& [one, other] :
+       {std::pair(&frames.camera, &frames.studio), std::pair(&frames.optical, &frames.studio),
+        std::pair(&frames.optical, &frames.camera)}) {
+    if (*one == *other) throw BagError("frame " + ros1::shown(*one) + ": studio, camera and optical frame must differ");
+  }
+  return frames;
+}
+
+ros1::CameraPipeline pipeline_of(const TakeToBagOptions& options) {
+  (void)sound(ros1::parse_camera_name(options.camera), "--camera", options.camera);
+  if (!ros1::field_rate_range.contains(options.field_rate)) {
+    throw BagError("--field-rate = " + ros1::shown(options.field_rate) + ": must be " + ros1::field_rate_range.text());
+  }
+  ros1::CameraOptions camera;
   camera.format = options.format;
-  node.field_rate = options.field_rate;
-  const auto faults = validate(node);
-  if (!faults.empty()) throw BagError(plain(faults.front()));
-  return camera;
+  return {camera, frames_of(options), options.field_rate};
 }
 
 /// When the fields of a take were.
@@ -104,11 +119,11 @@ class Recording {
   rosbag::Bag bag_;
 };
 
-geometry_msgs::TransformStamped optical_transform(const ros1::CameraParameters& camera, ::ros::Time stamp) {
+geometry_msgs::TransformStamped optical_transform(const ros1::CameraFrames& frames, ::ros::Time stamp) {
   geometry_msgs::TransformStamped transform;
   transform.header.stamp = stamp;
-  transform.header.frame_id = camera.camera_frame;
-  transform.child_frame_id = camera.optical_frame;
+  transform.header.frame_id = frames.camera;
+  transform.child_frame_id = frames.optical;
   transform.transform = ros1::to_transform(ros1::camera_T_optical());
   return transform;
 }
@@ -128,15 +143,14 @@ void tell(const ros1::CameraStatistics& statistics, std::ostream& err) {
   }
 }
 
-void record(const file::Take& take, const Schedule& schedule, ros1::CameraPipeline& pipeline, Recording& recording,
-            cli::LongRun& run) {
-  const auto& camera = pipeline.parameters();
-  const std::string topics = "/" + camera.name + "/";
+void record(const file::Take& take, const Schedule& schedule, const TakeToBagOptions& options,
+            ros1::CameraPipeline& pipeline, Recording& recording, cli::LongRun& run) {
+  const std::string topics = "/" + options.camera + "/";
   const auto begin = ros1::to_time(schedule.at(0));
   const auto end = ros1::to_time(schedule.at(take.params.size()));
   if (!begin || !end) throw BagError("its fields are outside of 1970 to 2106, which is what ROS can tell");
 
-  recording.write("/tf_static", optical_transform(camera, *begin), /*is_latched=*/true);
+  recording.write("/tf_static", optical_transform(frames_of(options), *begin), /*is_latched=*/true);
   transport::Sample sample;
   sample.sender.kind = transport::SenderKind::file;
   sample.arrival = schedule.at(0);
@@ -162,13 +176,13 @@ void bag_of_take(const std::string& take_path, const std::string& bag_path, cons
                  cli::LongRun& run, std::ostream& err) {
   const file::Take take = file::read_take(take_path);
   try {
-    ros1::CameraPipeline pipeline(camera_parameters(options), options.field_rate);
+    ros1::CameraPipeline pipeline = pipeline_of(options);
     const Schedule schedule(take.time_code, options);
     file::PartFile file(bag_path, options.overwrite);
     run.begin("writing " + bag_path);
     try {
       Recording recording(file.part(), options, schedule.zero());
-      record(take, schedule, pipeline, recording, run);
+      record(take, schedule, options, pipeline, recording, run);
       recording.close();
     } catch (...) {
       file.discard();

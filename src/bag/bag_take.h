@@ -15,11 +15,12 @@ struct TakeToBagOptions {
   std::string camera = "camera";
   std::string studio_frame = "studio";
   std::optional<std::string> camera_frame, optical_frame;  ///< none: as trk_to_ros names them
-  std::string format = "as_received";                      ///< trk_to_ros's, so that the take can be had back
-  double field_rate = 50;                                  ///< Hz
-  std::int64_t midnight = default_midnight;                ///< when the time code was 00:00:00:00:1, ns since 1970 UTC
-  std::optional<std::int64_t> start;  ///< of the first field, ns since 1970 UTC: the time code is left aside
-  std::string compression = "none";   ///< none, bz2 or lz4
+  /// FormatBit mask of the params; none: as received, so that the take can be had back.
+  std::optional<std::uint32_t> format;
+  double field_rate = 50;                    ///< Hz
+  std::int64_t midnight = default_midnight;  ///< when the time code was 00:00:00:00:1, ns since 1970 UTC
+  std::optional<std::int64_t> start;         ///< of the first field, ns since 1970 UTC: the time code is left aside
+  std::string compression = "none";          ///< none, bz2 or lz4
   bool overwrite = false;
 
   /// 1970-01-02: nobody takes it for the day of the recording, which a take does not tell, and ROS can tell it.

@@ -4,21 +4,36 @@
 #include <chrono>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include <ros/console.h>
 #include <ros/init.h>
 
 #include "crane_motion.h"
 #include "nodes/node_parameters.h"
-#include "trk_bridge/ros/messages.h"
 #include "ros/parameter_reader.h"
+#include "trk_bridge/ros/messages.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::demo {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+struct Parameters {
+  double rate = 50;          // Hz
+  bool moves_joints = true;  // else joint states come from elsewhere
+  std::string optical_frame = "camera_optical";
+};
+
+Parameters read_parameters(const XmlRpc::XmlRpcValue& tree) {
+  ros1::ParameterReader reader(tree);
+  Parameters parameters;
+  reader.number("rate", parameters.rate, {1, 1000, "Hz"});
+  reader.choice("joints", parameters.moves_joints, {{"shot", true}, {"external", false}});
+  reader.parsed("optical_frame", parameters.optical_frame, ros1::parse_frame);
+  reader.finish();
+  return parameters;
+}
 
 template <typename T>
 T sound(camera::Result<T> result, const char* what) {
@@ -29,21 +44,10 @@ T sound(camera::Result<T> result, const char* what) {
 }  // namespace
 
 CraneShot::CraneShot(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string&) {
-  std::vector<std::string> faults;
-  ros1::ParameterReader reader(nodes::private_parameters(private_node), "~", faults);
-  rate_ = reader.number("rate").value_or(rate_);
-  if (!(rate_ >= 1 && rate_ <= 1000)) {
-    faults.push_back("~rate = " + std::to_string(rate_) + ": must be 1 to 1000 Hz");
-  }
-  const std::string joints = reader.text("joints").value_or("shot");
-  if (joints != "shot" && joints != "external") {
-    faults.push_back("~joints = '" + joints + "': must be shot or external");
-  }
-  camera_info_.header.frame_id = reader.text("optical_frame").value_or("camera_optical");
-  reader.refuse_unknown();
-  if (!faults.empty()) throw ros1::ParameterError(faults);
-
-  moves_joints_ = joints == "shot";
+  const auto parameters = read_parameters(nodes::private_parameters(private_node));
+  rate_ = parameters.rate;
+  moves_joints_ = parameters.moves_joints;
+  camera_info_.header.frame_id = parameters.optical_frame;
   joint_state_.name.assign(demo::joint_names.begin(), demo::joint_names.end());
   joint_state_.position.resize(demo::joint_names.size());
   constexpr std::uint32_t queue = 100;

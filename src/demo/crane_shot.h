@@ -34,8 +34,8 @@ class CraneShot {
   void run();
   void publish(double seconds);
 
-  double rate_ = 50;
-  bool moves_joints_ = true;
+  double rate_;
+  bool moves_joints_;
   ::ros::Publisher joint_states_, camera_infos_, lenses_;
   sensor_msgs::JointState joint_state_;
   sensor_msgs::CameraInfo camera_info_;

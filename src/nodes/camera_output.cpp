@@ -6,18 +6,20 @@ namespace trk_bridge::nodes {
 
 CameraOutput::CameraOutput(::ros::NodeHandle node, const trk_bridge::ros1::CameraParameters& parameters,
                            double field_rate, int queue_size, ::ros::Publisher markers)
-    : pipeline_(parameters, field_rate),
+    : parameters_(parameters),
+      pipeline_(parameters.options, parameters.frames, field_rate),
       field_rate_(field_rate),
       marker_topic_(std::move(markers)),
       log_(parameters.name) {
   if (parameters.publish_markers) {
-    markers_.emplace(parameters.name, parameters.optical_frame, parameters.marker_far,
+    markers_.emplace(parameters.name, parameters.frames.optical, parameters.marker_far,
                      trk_bridge::ros1::silence_after(field_rate));
   }
   const auto queue = static_cast<std::uint32_t>(queue_size);
   params_ = node.advertise<trk_bridge::CameraParams>("params", queue);
   constants_ = node.advertise<trk_bridge::CameraConstants>("constants", queue, /*latch=*/true);
-  if (parameters.publish_camera_info) camera_info_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", queue);
+  if (parameters.options.publish_camera_info)
+    camera_info_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", queue);
   if (pipeline_.has_constants()) constants_.publish(pipeline_.constants());
   statistics_.store(pipeline_.statistics());
 }
@@ -49,7 +51,7 @@ void CameraOutput::describe(trk_bridge::ros1::CameraReport report,
                             diagnostic_updater::DiagnosticStatusWrapper& status) {
   report.camera = statistics_.load();
   report.markers = marker_statistics_.load();
-  const auto found = trk_bridge::ros1::findings(report, last_report_, parameters(), field_rate_);
+  const auto found = trk_bridge::ros1::findings(report, last_report_, parameters_.options, field_rate_);
   trk_bridge::ros1::fill(status, found, report, last_report_);
   log_.tell(found);
   last_report_ = std::move(report);

@@ -9,10 +9,10 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include "finding_log.h"
+#include "ros/trk_to_ros_parameters.h"
 #include "ros/camera_markers.h"
 #include "ros/camera_pipeline.h"
 #include "ros/diagnostics.h"
-#include "ros/trk_to_ros_parameters.h"
 #include "trk_bridge/base/snapshot.h"
 
 namespace trk_bridge::nodes {
@@ -33,11 +33,12 @@ class CameraOutput {
   /// was not met before go to the log, too.
   void describe(trk_bridge::ros1::CameraReport report, diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  const trk_bridge::ros1::CameraParameters& parameters() const noexcept { return pipeline_.parameters(); }
+  const trk_bridge::ros1::CameraParameters& parameters() const noexcept { return parameters_; }
 
  private:
   void publish_markers(const trk_bridge::ros1::PipelineOutput&);
 
+  const trk_bridge::ros1::CameraParameters parameters_;
   trk_bridge::ros1::CameraPipeline pipeline_;
   std::optional<trk_bridge::ros1::CameraMarkers> markers_;
   double field_rate_;

@@ -7,8 +7,8 @@ namespace trk_bridge::nodes {
 ParamsInput::ParamsInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParameters& parameters,
                          SetWriter write)
     : write_(std::move(write)),
-      form_(trk_bridge::ros1::form_of(parameters)),
-      converter_(parameters),
+      form_(parameters.form),
+      converter_(parameters.form, parameters.constants),
       log_(parameters.name) {
   statistics_.store(converter_.statistics());
   last_report_.time = base::steady_now();

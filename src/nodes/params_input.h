@@ -7,6 +7,7 @@
 #include <trk_bridge/CameraParams.h>
 
 #include "finding_log.h"
+#include "ros/ros_to_trk_parameters.h"
 #include "ros/outgoing_diagnostics.h"
 #include "ros/params_to_trk.h"
 #include "trk_bridge/base/snapshot.h"
@@ -17,7 +18,7 @@ namespace trk_bridge::nodes {
 /// Writes within the topics' callbacks: one queue with one thread at a time serves them.
 class ParamsInput : public TrkInput {
  public:
-  /// Subscribes in the namespace of `node`. Parameters must have passed validate().
+  /// Subscribes in the namespace of `node`.
   ParamsInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParameters&, SetWriter);
 
   void describe(diagnostic_updater::DiagnosticStatusWrapper& status) override;

@@ -2,6 +2,7 @@
 
 #include "node_parameters.h"
 #include "params_input.h"
+#include "ros/ros_to_trk_parameters.h"
 #include "base/clock.h"
 #include "tf_input.h"
 
@@ -11,9 +12,9 @@ RosToTrk::RosToTrk(::ros::NodeHandle node, ::ros::NodeHandle private_node, const
     : diagnostics_(node, private_node, name) {
   const auto parameters = trk_bridge::ros1::read_ros_to_trk_parameters(private_parameters(private_node),
                                                                        camera_name_of(node.getNamespace()));
-  for (const auto& url : parameters.sinks) sinks_.push_back(std::make_unique<SinkOutput>(url));
+  for (const auto& sink : parameters.sinks) sinks_.push_back(std::make_unique<SinkOutput>(sink));
   const auto write_all = [this](const trk_bridge::ros1::Outgoing& outgoing) { write(outgoing); };
-  if (parameters.input == "tf") {
+  if (parameters.input == trk_bridge::ros1::OutgoingInput::tf) {
     input_ = std::make_unique<TfInput>(node, parameters, write_all);
   } else {
     input_ = std::make_unique<ParamsInput>(node, parameters, write_all);

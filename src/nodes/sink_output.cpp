@@ -2,14 +2,12 @@
 
 #include <ros/console.h>
 
-#include "trk_bridge/endpoints/endpoints.h"
-
 #include "base/clock.h"
 
 namespace trk_bridge::nodes {
 
-SinkOutput::SinkOutput(const std::string& url)
-    : url_(url), sink_(endpoints::open_sink(url)), name_(sink_->name()), log_(name_) {
+SinkOutput::SinkOutput(const transport::SinkEndpoint& endpoint)
+    : url_(endpoint.url), sink_(endpoint.open()), name_(sink_->name()), log_(name_) {
   last_report_.time = base::steady_now();
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "finding_log.h"
+#include "ros/ros_to_trk_parameters.h"
 #include "ros/outgoing.h"
 #include "ros/outgoing_diagnostics.h"
 #include "trk_bridge/transport/sink.h"
@@ -18,7 +19,7 @@ namespace trk_bridge::nodes {
 class SinkOutput {
  public:
   /// Opens the sink. Throws TransportError.
-  explicit SinkOutput(const std::string& url);
+  explicit SinkOutput(const transport::SinkEndpoint&);
   /// Closes it; a sink that cannot be closed orderly is told in the log.
   ~SinkOutput();
   SinkOutput(const SinkOutput&) = delete;

@@ -16,10 +16,9 @@ constexpr int late_looks = 20;
 TfInput::TfInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParameters& parameters, SetWriter write)
     : write_(std::move(write)),
       parameters_(parameters),
-      form_(trk_bridge::ros1::form_of(parameters)),
       period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.rate))),
       listener_(transforms_, node, /*spin_thread=*/true, no_delay()),
-      converter_(parameters),
+      converter_(parameters.form, parameters.tf),
       log_(parameters.name) {
   last_report_.time = base::steady_now();
   const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
@@ -117,7 +116,7 @@ void TfInput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
   report.info_topic = camera_info_.getTopic();
   report.time = base::steady_now();
   const auto found = trk_bridge::ros1::findings(report, last_report_, parameters_.rate);
-  trk_bridge::ros1::fill(status, found, report, last_report_, form_);
+  trk_bridge::ros1::fill(status, found, report, last_report_, parameters_.form);
   log_.tell(found);
   last_report_ = std::move(report);
 }

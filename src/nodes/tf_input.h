@@ -16,6 +16,7 @@
 #include <tl/expected.hpp>
 
 #include "finding_log.h"
+#include "ros/ros_to_trk_parameters.h"
 #include "ros/outgoing_diagnostics.h"
 #include "ros/tf_to_trk.h"
 #include "trk_input.h"
@@ -28,7 +29,7 @@ namespace trk_bridge::nodes {
 /// only the counter tells a receiver's pose from the next.
 class TfInput : public TrkInput {
  public:
-  /// Subscribes in the namespace of `node`. Parameters must have passed validate().
+  /// Subscribes in the namespace of `node`.
   TfInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParameters&, SetWriter);
   ~TfInput() override;
 
@@ -48,7 +49,6 @@ class TfInput : public TrkInput {
 
   SetWriter write_;
   const trk_bridge::ros1::RosToTrkParameters parameters_;
-  const trk_bridge::ros1::OutgoingForm form_;
   const Clock::duration period_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;

@@ -5,10 +5,9 @@
 #include <map>
 
 #include "node_parameters.h"
-#include "trk_bridge/endpoints/endpoints.h"
+#include "ros/trk_to_ros_parameters.h"
 #include "ros/camera_markers.h"
 #include "trk_bridge/ros/frames.h"
-#include "ros/trk_to_ros_parameters.h"
 
 namespace trk_bridge::nodes {
 namespace {
@@ -41,10 +40,12 @@ void TrkToRos::open(const trk_bridge::ros1::TrkToRosParameters& parameters, cons
     const auto topics = parameters.several ? ::ros::NodeHandle(node_, camera.name) : node_;
     cameras_.push_back(
         std::make_unique<CameraOutput>(topics, camera, parameters.field_rate, parameters.queue_size, markers));
-    by_source[camera.source].push_back(cameras_.back().get());
+    by_source[camera.source->url].push_back(cameras_.back().get());
   }
   for (const auto& [url, cameras] : by_source) {
-    readers_.push_back(std::make_unique<SourceReader>(endpoints::open_source(url, parameters.field_rate), cameras));
+    const auto& endpoint = cameras.front()->parameters().source;
+    readers_.push_back(
+        std::make_unique<SourceReader>(endpoint->open(parameters.field_rate), cameras));
     for (auto* camera : cameras) {
       diagnostics_.add(camera->parameters().name,
                        [camera, reader = readers_.back().get()](diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -57,11 +58,11 @@ void TrkToRos::open(const trk_bridge::ros1::TrkToRosParameters& parameters, cons
 void TrkToRos::send_static_transforms() {
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (const auto& camera : cameras_) {
-    if (!camera->parameters().publish_tf) continue;
+    if (!camera->parameters().options.publish_tf) continue;
     geometry_msgs::TransformStamped transform;
     transform.header.stamp = ::ros::Time::now();
-    transform.header.frame_id = camera->parameters().camera_frame;
-    transform.child_frame_id = camera->parameters().optical_frame;
+    transform.header.frame_id = camera->parameters().frames.camera;
+    transform.child_frame_id = camera->parameters().frames.optical;
     transform.transform = trk_bridge::ros1::to_transform(trk_bridge::ros1::camera_T_optical());
     transforms.push_back(transform);
   }

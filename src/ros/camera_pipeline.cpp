@@ -5,7 +5,6 @@
 
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/ros/messages.h"
-#include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {
 namespace {
@@ -16,34 +15,26 @@ std::chrono::nanoseconds nanoseconds_of(double seconds) {
   return std::chrono::nanoseconds(std::llround(seconds * 1e9));
 }
 
-std::optional<std::uint32_t> format_of(const CameraParameters& parameters) {
-  if (parameters.format == as_received) return std::nullopt;
-  return wire::format_from_words(parameters.format).value();
-}
-
 }  // namespace
 
-CameraPipeline::CameraPipeline(const CameraParameters& parameters, double field_rate)
-    : parameters_(parameters),
-      format_(format_of(parameters)),
-      sequence_(field_rate),
-      stamper_(nanoseconds_of(parameters.delay)) {
-  params_.header.frame_id = parameters.studio_frame;
-  constants_message_.header.frame_id = parameters.camera_frame;
-  camera_info_.header.frame_id = parameters.optical_frame;
+CameraPipeline::CameraPipeline(const CameraOptions& options, const CameraFrames& frames, double field_rate)
+    : options_(options), sequence_(field_rate), stamper_(nanoseconds_of(options.delay)) {
+  params_.header.frame_id = frames.studio;
+  constants_message_.header.frame_id = frames.camera;
+  camera_info_.header.frame_id = frames.optical;
   // For the longer of both models, so that a change of the lens allocates nothing.
   camera_info_.D.reserve(8);
   camera_info_.distortion_model.reserve(std::strlen(camera::name(camera::DistortionModel::rational_polynomial)));
-  transform_.header.frame_id = parameters.studio_frame;
-  transform_.child_frame_id = parameters.camera_frame;
-  if (parameters.constants) use(*parameters.constants, ConstantsOrigin::parameter);
+  transform_.header.frame_id = frames.studio;
+  transform_.child_frame_id = frames.camera;
+  if (options.constants) use(*options.constants, ConstantsOrigin::parameter);
 }
 
 bool CameraPipeline::wants(const wire::Record& record) const noexcept {
-  if (!parameters_.id) return true;
-  if (const auto* params = std::get_if<wire::CameraParams>(&record)) return params->id == *parameters_.id;
+  if (!options_.id) return true;
+  if (const auto* params = std::get_if<wire::CameraParams>(&record)) return params->id == *options_.id;
   const auto* constants = std::get_if<wire::CameraConstants>(&record);
-  return constants != nullptr && (constants->id == *parameters_.id || constants->id == 0);
+  return constants != nullptr && (constants->id == *options_.id || constants->id == 0);
 }
 
 PipelineOutput CameraPipeline::process(const transport::Sample& sample, std::int64_t now) {
@@ -54,13 +45,13 @@ PipelineOutput CameraPipeline::process(const transport::Sample& sample, std::int
 
 void CameraPipeline::use(const wire::CameraConstants& constants, ConstantsOrigin origin) {
   incoming_ = constants;
-  outgoing_ = format_ ? camera::constants_for(constants, *format_) : constants;
+  outgoing_ = options_.format ? camera::constants_for(constants, *options_.format) : constants;
   statistics_.constants = origin;
   to_msg(outgoing_, constants_message_);
 }
 
 PipelineOutput CameraPipeline::take(const wire::CameraConstants& constants, const transport::Sample& sample) {
-  const bool own = !parameters_.id || constants.id == *parameters_.id;
+  const bool own = !options_.id || constants.id == *options_.id;
   const auto origin = own ? ConstantsOrigin::own : ConstantsOrigin::any_camera;
   if (origin < statistics_.constants) return {};
   if (!camera::check(constants)) {
@@ -72,7 +63,7 @@ PipelineOutput CameraPipeline::take(const wire::CameraConstants& constants, cons
   if (same) return {};
   // Out of ROS time is no reason to keep constants back: zero means that no time is known.
   constants_message_.header.stamp =
-      to_time(sample.arrival - nanoseconds_of(parameters_.delay).count()).value_or(::ros::Time());
+      to_time(sample.arrival - nanoseconds_of(options_.delay).count()).value_or(::ros::Time());
   PipelineOutput output;
   output.constants = true;
   return output;
@@ -112,8 +103,8 @@ PipelineOutput CameraPipeline::take(const wire::CameraParams& params, const tran
   PipelineOutput output;
   params_.header.stamp = camera_info_.header.stamp = transform_.header.stamp = *stamp;
   output.params = make_params(params);
-  output.camera_info = parameters_.publish_camera_info && make_camera_info(lens);
-  if (parameters_.publish_tf) {
+  output.camera_info = options_.publish_camera_info && make_camera_info(lens);
+  if (options_.publish_tf) {
     transform_.transform = to_transform(*pose);
     output.transform = true;
   }
@@ -121,13 +112,13 @@ PipelineOutput CameraPipeline::take(const wire::CameraParams& params, const tran
 }
 
 bool CameraPipeline::make_params(const wire::CameraParams& params) {
-  if (!format_) {
+  if (!options_.format) {
     to_msg(params, params_);
     return true;
   }
   const auto* incoming = incoming_ ? &*incoming_ : nullptr;
   const auto* outgoing = incoming_ ? &outgoing_ : nullptr;
-  const auto told = camera::reexpress(params, *format_, incoming, outgoing);
+  const auto told = camera::reexpress(params, *options_.format, incoming, outgoing);
   if (!told) {
     ++statistics_.withheld;
     statistics_.withhold_reason = told.error();

@@ -11,8 +11,8 @@
 
 #include "trk_bridge/camera/calibration.h"
 #include "trk_bridge/camera/camera.h"
+#include "camera_options.h"
 #include "stamper.h"
-#include "trk_to_ros_parameters.h"
 #include "trk_bridge/base/sequence.h"
 #include "trk_bridge/transport/source.h"
 
@@ -56,8 +56,8 @@ struct PipelineOutput {
 /// Not synchronised: one thread at a time. Messages are kept and overwritten, so that a sample allocates nothing.
 class CameraPipeline {
  public:
-  /// Parameters must have passed validate().
-  CameraPipeline(const CameraParameters&, double field_rate);
+  /// `field_rate` in Hz.
+  CameraPipeline(const CameraOptions&, const CameraFrames&, double field_rate);
 
   /// Whether a record is this camera's.
   bool wants(const wire::Record&) const noexcept;
@@ -74,7 +74,6 @@ class CameraPipeline {
   bool has_constants() const noexcept { return incoming_.has_value(); }
 
   const CameraStatistics& statistics() const noexcept { return statistics_; }
-  const CameraParameters& parameters() const noexcept { return parameters_; }
 
  private:
   PipelineOutput take(const wire::CameraConstants&, const transport::Sample&);
@@ -84,8 +83,7 @@ class CameraPipeline {
   bool make_params(const wire::CameraParams&);
   bool make_camera_info(const camera::Result<camera::Lens>&);
 
-  CameraParameters parameters_;
-  std::optional<std::uint32_t> format_;  // none: as received
+  CameraOptions options_;
   base::Sequence sequence_;
   Stamper stamper_;
   camera::Calibrator calibrator_;

@@ -40,7 +40,7 @@ const char* constants_text(ConstantsOrigin origin) {
 }
 
 /// Before the first parameters of this camera.
-Finding silence(const CameraReport& now, const CameraParameters& parameters) {
+Finding silence(const CameraReport& now, const CameraOptions& options) {
   switch (now.source.state) {
     case SourceState::waiting:
       return {Condition::waiting, DiagnosticStatus::STALE, now.source.waiting_for};
@@ -54,20 +54,19 @@ Finding silence(const CameraReport& now, const CameraParameters& parameters) {
     default:
       break;
   }
-  if (parameters.id && now.reader.unknown_id_records > 0) {
+  if (options.id && now.reader.unknown_id_records > 0) {
     return {Condition::other_ids_only, DiagnosticStatus::WARN,
-            "parameters come, but none with id " + std::to_string(*parameters.id) + "; seen: " + ids_text(now.reader)};
+            "parameters come, but none with id " + std::to_string(*options.id) + "; seen: " + ids_text(now.reader)};
   }
   return {Condition::constants_only, DiagnosticStatus::WARN, "records come, but no parameters of this camera yet"};
 }
 
-Finding state(const CameraReport& now, const CameraReport& before, const CameraParameters& parameters,
-              double field_rate) {
+Finding state(const CameraReport& now, const CameraReport& before, const CameraOptions& options, double field_rate) {
   if (now.source.state == SourceState::failed) {
     return {Condition::failed, DiagnosticStatus::ERROR, "the source failed: " + now.source.error};
   }
   if (now.source.state == SourceState::ended) return {Condition::ended, DiagnosticStatus::OK, "ended"};
-  if (now.camera.sequence.accepted == 0) return silence(now, parameters);
+  if (now.camera.sequence.accepted == 0) return silence(now, options);
   const double age = seconds_between(now.camera.last_news, now.time);
   if (age > silence_after(field_rate)) {
     if (now.camera.sequence.duplicates > before.camera.sequence.duplicates) {
@@ -103,7 +102,7 @@ void add_source_findings(std::vector<Finding>& found, const CameraReport& now, c
 }
 
 void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, const CameraReport& before,
-                         const CameraParameters& parameters) {
+                         const CameraOptions& options) {
   const auto warn = [&found](Condition condition, std::string text) {
     found.push_back({condition, DiagnosticStatus::WARN, std::move(text)});
   };
@@ -130,7 +129,7 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
          "no constants yet: format '" + wire::format_to_words(camera.last_format) + "' needs them");
   } else if (camera.withheld > old.withheld) {
     warn(Condition::withheld, "params withheld: " + camera::describe(camera.withhold_reason));
-  } else if (no_constants && parameters.publish_camera_info && camera.sequence.accepted > 0) {
+  } else if (no_constants && options.publish_camera_info && camera.sequence.accepted > 0) {
     warn(Condition::no_constants, "no constants yet: no camera_info");
   }
   if (!no_constants && camera.without_camera_info > old.without_camera_info) {
@@ -151,11 +150,11 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
 
 }  // namespace
 
-std::vector<Finding> findings(const CameraReport& now, const CameraReport& before, const CameraParameters& parameters,
+std::vector<Finding> findings(const CameraReport& now, const CameraReport& before, const CameraOptions& options,
                               double field_rate) {
-  std::vector<Finding> found{state(now, before, parameters, field_rate)};
+  std::vector<Finding> found{state(now, before, options, field_rate)};
   add_source_findings(found, now, before);
-  add_camera_findings(found, now, before, parameters);
+  add_camera_findings(found, now, before, options);
   return found;
 }
 

@@ -1,6 +1,7 @@
 // What diagnostics say of a camera and its source: states as they are, never better.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -35,9 +36,12 @@ struct CameraReport {
   std::int64_t time = 0;  ///< steady clock, ns
 };
 
+/// Seconds after which a camera that sends nothing new is silent: one, or five fields where these are longer.
+inline double silence_after(double field_rate) { return std::max(1.0, 5.0 / field_rate); }
+
 /// What `now` tells, the state first and then what has gone wrong since `before` (the look before it; of counters, only
 /// their growth is a finding). Nothing new for silence_after() is a finding.
-std::vector<Finding> findings(const CameraReport& now, const CameraReport& before, const CameraParameters& parameters,
+std::vector<Finding> findings(const CameraReport& now, const CameraReport& before, const CameraOptions& options,
                               double field_rate);
 
 /// The findings as a summary (worst level; texts joined), all counters as values. The rate is that between the looks.

@@ -5,10 +5,17 @@
 #include <optional>
 
 #include "trk_bridge/camera/camera.h"
-#include "ros_to_trk_parameters.h"
+#include "trk_bridge/wire/format.h"
 #include "trk_bridge/wire/record.h"
 
 namespace trk_bridge::ros1 {
+
+/// How records have to be told.
+struct OutgoingForm {
+  std::uint32_t format = wire::euler;  ///< FormatBit mask that a record may be made in
+  bool sends_id = true;                ///< false: the receiver can take none, and 0 is sent
+  std::optional<std::uint32_t> id;     ///< instead of what messages say
+};
 
 /// What is to be written to every sink, constants first. Constants come with parameters only: these tell their id.
 struct Outgoing {

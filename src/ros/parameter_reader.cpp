@@ -1,8 +1,10 @@
 #include "parameter_reader.h"
 
-#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <sstream>
 
+#include "trk_bridge/camera/camera.h"
 #include "base/nearest.h"
 
 namespace trk_bridge::ros1 {
@@ -19,7 +21,7 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return text;
 }
 
-std::string shown(const XmlRpcValue& value) {
+std::string text_of(const XmlRpcValue& value) {
   std::ostringstream out;
   if (value.getType() == XmlRpcValue::TypeString) {
     out << '\'' << value << '\'';
@@ -29,15 +31,68 @@ std::string shown(const XmlRpcValue& value) {
   return out.str();
 }
 
+bool contains(const std::vector<std::string>& keys, const std::string& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
 }  // namespace
 
 ParameterError::ParameterError(const std::vector<std::string>& faults) : std::runtime_error(joined(faults, "\n")) {}
 
-ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string path, std::vector<std::string>& faults)
-    : tree_(tree), path_(std::move(path)), faults_(faults) {
+bool Range::contains(double value) const noexcept {
+  return std::isfinite(value) && (excludes_least ? value > least : value >= least) && value <= most;
+}
+
+std::string Range::text() const {
+  std::ostringstream out;
+  if (std::isinf(least) && std::isinf(most)) {
+    out << "finite";
+  } else if (excludes_least) {
+    out << "more than " << least;
+    if (std::isfinite(most)) out << " and at most " << most;
+  } else {
+    out << least;
+    if (std::isfinite(most)) {
+      out << " to " << most;
+    } else {
+      out << " or more";
+    }
+  }
+  if (*unit != '\0') out << ' ' << unit;
+  return out.str();
+}
+
+std::string shown(const std::string& text) { return '\'' + text + '\''; }
+
+std::string shown(double number) {
+  std::ostringstream out;
+  out << number;
+  return out.str();
+}
+
+tl::expected<std::string, std::string> parse_camera_name(const std::string& name) {
+  bool sound = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
+  for (const char c : name) sound = sound && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_');
+  if (sound) return name;
+  return tl::make_unexpected(std::string("a camera's name must begin with a letter, then letters, digits and _"));
+}
+
+tl::expected<std::string, std::string> parse_frame(const std::string& frame) {
+  bool sound = !frame.empty() && frame[0] != '/';
+  for (const char c : frame) sound = sound && std::isspace(static_cast<unsigned char>(c)) == 0;
+  if (sound) return frame;
+  return tl::make_unexpected(std::string("must be a tf frame: not empty, no leading slash, no white space"));
+}
+
+ParameterReader::ParameterReader(const XmlRpcValue& tree)
+    : ParameterReader(tree, "~", std::make_shared<std::vector<std::string>>()) {}
+
+ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string path,
+                                 std::shared_ptr<std::vector<std::string>> faults)
+    : tree_(tree), path_(std::move(path)), faults_(std::move(faults)) {
   if (tree_.getType() == XmlRpcValue::TypeStruct) return;
   // An empty map arrives as an invalid value.
-  if (tree_.valid()) faults_.push_back(path_ + " = " + shown(tree_) + ": must be a map of parameters");
+  if (tree_.valid()) faults_->push_back(path_ + " = " + text_of(tree_) + ": must be a map of parameters");
   tree_.clear();
 }
 
@@ -47,22 +102,48 @@ XmlRpcValue* ParameterReader::find(const std::string& key) {
 }
 
 void ParameterReader::know(const std::string& key) {
-  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  if (!contains(known_, key)) known_.push_back(key);
 }
 
 bool ParameterReader::has(const std::string& key) const {
   return tree_.getType() == XmlRpcValue::TypeStruct && tree_.hasMember(key);
 }
 
-void ParameterReader::wrong_type(const std::string& key, XmlRpcValue& value, const char* allowed) {
-  faults_.push_back(path_ + key + " = " + shown(value) + ": must be " + allowed);
+std::vector<std::string> ParameterReader::keys() const {
+  std::vector<std::string> names;
+  if (tree_.getType() != XmlRpcValue::TypeStruct) return names;
+  for (const auto& [name, value] : tree_) names.push_back(name);
+  return names;
 }
 
-std::optional<std::string> ParameterReader::text(const std::string& key) {
+bool ParameterReader::is_sound(const std::string& key) const {
+  if (outer_ != nullptr && !has(key)) return outer_->is_sound(key);
+  return !contains(faulty_, key);
+}
+
+bool ParameterReader::are_sound(std::initializer_list<const char*> keys) const {
+  return std::all_of(keys.begin(), keys.end(), [this](const char* key) { return is_sound(key); });
+}
+
+void ParameterReader::fault(const std::string& key, const std::string& value, const std::string& allowed) {
+  faults_->push_back(path_ + key + " = " + value + ": " + allowed);
+}
+
+void ParameterReader::fault(const std::string& key, const std::string& text) {
+  faults_->push_back(path_ + key + ": " + text);
+}
+
+bool ParameterReader::refuse(const std::string& key, const std::string& value, const std::string& allowed) {
+  fault(key, value, allowed);
+  faulty_.push_back(key);
+  return false;
+}
+
+std::optional<std::string> ParameterReader::text(const std::string& key, const std::string& allowed) {
   auto* value = find(key);
   if (value == nullptr) return std::nullopt;
   if (value->getType() == XmlRpcValue::TypeString) return static_cast<std::string&>(*value);
-  wrong_type(key, *value, "text");
+  refuse(key, text_of(*value), allowed);
   return std::nullopt;
 }
 
@@ -78,58 +159,104 @@ std::optional<std::vector<std::string>> ParameterReader::texts(const std::string
     if (sound) all.push_back(static_cast<std::string&>(one));
   }
   if (sound) return all;
-  wrong_type(key, *value, "a list of texts");
+  refuse(key, text_of(*value), "must be a list of texts");
   return std::nullopt;
 }
 
-std::optional<double> ParameterReader::number(const std::string& key) {
+bool ParameterReader::number(const std::string& key, double& into, const Range& range) {
+  auto* value = find(key);
+  if (value == nullptr) return false;
+  const bool is_integer = value->getType() == XmlRpcValue::TypeInt;
+  if (!is_integer && value->getType() != XmlRpcValue::TypeDouble)
+    return refuse(key, text_of(*value), "must be a number");
+  const double given = is_integer ? static_cast<int&>(*value) : static_cast<double&>(*value);
+  if (!range.contains(given)) return refuse(key, text_of(*value), "must be " + range.text());
+  into = given;
+  return true;
+}
+
+bool ParameterReader::integer(const std::string& key, int& into, const Range& range) {
+  auto* value = find(key);
+  if (value == nullptr) return false;
+  if (value->getType() != XmlRpcValue::TypeInt) return refuse(key, text_of(*value), "must be an integer");
+  const int given = static_cast<int&>(*value);
+  if (!range.contains(given)) return refuse(key, text_of(*value), "must be " + range.text());
+  into = given;
+  return true;
+}
+
+bool ParameterReader::flag(const std::string& key, bool& into) {
+  auto* value = find(key);
+  if (value == nullptr) return false;
+  if (value->getType() != XmlRpcValue::TypeBoolean) return refuse(key, text_of(*value), "must be true or false");
+  into = static_cast<bool&>(*value);
+  return true;
+}
+
+bool ParameterReader::id(const std::string& key, std::optional<std::uint32_t>& into) {
+  int given = 0;
+  if (!integer(key, given, at_least(0))) return false;
+  into = static_cast<std::uint32_t>(given);
+  return true;
+}
+
+bool ParameterReader::constants(const std::string& key, std::optional<wire::CameraConstants>& into) {
+  auto reader = map(key);
+  if (!reader) return false;
+  wire::CameraConstants given;
+  reader->integer("image_width", given.image_width);
+  reader->integer("image_height", given.image_height);
+  reader->integer("blank_left", given.blank_left);
+  reader->integer("blank_right", given.blank_right);
+  reader->integer("blank_top", given.blank_top);
+  reader->integer("blank_bottom", given.blank_bottom);
+  reader->number("chip_width", given.chip_width);
+  reader->number("chip_height", given.chip_height);
+  reader->number("fake_chip_width", given.fake_chip_width);
+  reader->number("fake_chip_height", given.fake_chip_height);
+  bool complete = true;
+  for (const char* needed : {"image_width", "image_height", "chip_width", "chip_height"}) {
+    if (reader->has(needed)) continue;
+    reader->fault(needed, "must be given (blanks and fake chip may be left out)");
+    complete = false;
+  }
+  reader->refuse_unknown();
+  if (!complete || !reader->faulty_.empty()) {
+    faulty_.push_back(key);
+    return false;
+  }
+  if (const auto sound = camera::check(given); !sound) return refuse(key, "{…}", camera::describe(sound.error()));
+  into = given;
+  return true;
+}
+
+void ParameterReader::diagnostic_period() {
+  double period = 1;
+  number("diagnostic_period", period, more_than(0, "seconds"));
+}
+
+std::optional<ParameterReader> ParameterReader::map(const std::string& key) {
   auto* value = find(key);
   if (value == nullptr) return std::nullopt;
-  if (value->getType() == XmlRpcValue::TypeDouble) return static_cast<double&>(*value);
-  if (value->getType() == XmlRpcValue::TypeInt) return static_cast<int&>(*value);
-  wrong_type(key, *value, "a number");
-  return std::nullopt;
-}
-
-std::optional<int> ParameterReader::integer(const std::string& key) {
-  auto* value = find(key);
-  if (value == nullptr) return std::nullopt;
-  if (value->getType() == XmlRpcValue::TypeInt) return static_cast<int&>(*value);
-  wrong_type(key, *value, "an integer");
-  return std::nullopt;
-}
-
-std::optional<bool> ParameterReader::flag(const std::string& key) {
-  auto* value = find(key);
-  if (value == nullptr) return std::nullopt;
-  if (value->getType() == XmlRpcValue::TypeBoolean) return static_cast<bool&>(*value);
-  wrong_type(key, *value, "true or false");
-  return std::nullopt;
-}
-
-std::optional<XmlRpcValue> ParameterReader::map(const std::string& key) {
-  auto* value = find(key);
-  if (value == nullptr) return std::nullopt;
-  if (value->getType() == XmlRpcValue::TypeStruct) return *value;
-  wrong_type(key, *value, "a map");
-  return std::nullopt;
-}
-
-std::vector<std::string> ParameterReader::keys() const {
-  std::vector<std::string> names;
-  if (tree_.getType() != XmlRpcValue::TypeStruct) return names;
-  XmlRpcValue tree = tree_;  // iteration is not const
-  for (auto& [name, value] : tree) names.push_back(name);
-  return names;
+  if (value->valid() && value->getType() != XmlRpcValue::TypeStruct) {
+    refuse(key, text_of(*value), "must be a map");
+    return std::nullopt;
+  }
+  return ParameterReader(*value, path_ + key + "/", faults_);
 }
 
 void ParameterReader::refuse_unknown() {
+  std::sort(known_.begin(), known_.end());
   for (const auto& key : keys()) {
-    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    std::sort(known_.begin(), known_.end());
-    faults_.push_back(path_ + key + " = " + shown(tree_[key]) + ": no such parameter, nearest is " +
-                      base::nearest(key, known_) + "; known are " + joined(known_, ", "));
+    if (contains(known_, key)) continue;
+    fault(key, text_of(tree_[key]),
+          "no such parameter, nearest is " + base::nearest(key, known_) + "; known are " + joined(known_, ", "));
   }
+}
+
+void ParameterReader::finish() {
+  refuse_unknown();
+  if (!faults_->empty()) throw ParameterError(*faults_);
 }
 
 }  // namespace trk_bridge::ros1

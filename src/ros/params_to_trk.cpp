@@ -6,8 +6,9 @@ namespace trk_bridge::ros1 {
 
 using camera::CameraReason;
 
-ParamsToTrk::ParamsToTrk(const RosToTrkParameters& parameters) : form_(form_of(parameters)), outgoing_(form_.format) {
-  if (parameters.constants) use(*parameters.constants);
+ParamsToTrk::ParamsToTrk(const OutgoingForm& form, const std::optional<wire::CameraConstants>& constants)
+    : form_(form), outgoing_(form_.format) {
+  if (constants) use(*constants);
 }
 
 void ParamsToTrk::use(const wire::CameraConstants& constants) {

@@ -23,8 +23,8 @@ struct ParamsToTrkStatistics {
 /// Not synchronised: one thread at a time. Allocates nothing.
 class ParamsToTrk {
  public:
-  /// Parameters must have passed validate().
-  explicit ParamsToTrk(const RosToTrkParameters&);
+  /// `constants` count until some are taken.
+  explicit ParamsToTrk(const OutgoingForm&, const std::optional<wire::CameraConstants>& constants = std::nullopt);
 
   /// Takes constants, which go out with the next parameters. The newest sound ones count, whatever their id.
   void take(const trk_bridge::CameraConstants&);

@@ -7,19 +7,13 @@
 
 namespace trk_bridge::ros1 {
 
-TfToTrk::TfToTrk(const RosToTrkParameters& parameters)
-    : form_(form_of(parameters)),
-      is_optical_(parameters.camera_frame_is_optical),
-      focdist_(parameters.focdist),
-      aperture_(parameters.aperture),
-      outgoing_(form_.format) {
-  chip_.chip_width = parameters.chip_width.value();
-  chip_.chip_height = parameters.chip_height.value();
-  chip_.blank_left = parameters.blank_left;
-  chip_.blank_right = parameters.blank_right;
-  chip_.blank_top = parameters.blank_top;
-  chip_.blank_bottom = parameters.blank_bottom;
-}
+TfToTrk::TfToTrk(const OutgoingForm& form, const TfToTrkOptions& options)
+    : form_(form),
+      is_optical_(options.camera_frame_is_optical),
+      chip_(options.chip),
+      focdist_(options.focdist),
+      aperture_(options.aperture),
+      outgoing_(form_.format) {}
 
 void TfToTrk::take(const sensor_msgs::CameraInfo& info, std::int64_t now) {
   ++statistics_.infos;

@@ -16,6 +16,14 @@
 
 namespace trk_bridge::ros1 {
 
+/// What neither tf nor CameraInfo can tell.
+struct TfToTrkOptions {
+  wire::CameraConstants chip;            ///< its size in mm and its blanks in pixels; the image's size is CameraInfo's
+  bool camera_frame_is_optical = false;  ///< x right, y down, z forward (REP 103) instead of x right, y forward, z up
+  double focdist = 0;                    ///< m, until the `lens` topic tells it
+  double aperture = 0;                   ///< f-stop, likewise
+};
+
 /// Trivially copyable.
 struct TfToTrkStatistics {
   OutgoingStatistics outgoing;
@@ -33,8 +41,8 @@ struct TfToTrkStatistics {
 /// Not synchronised: one thread at a time. Allocates only when a CameraInfo brings another calibration.
 class TfToTrk {
  public:
-  /// Parameters must have passed validate().
-  explicit TfToTrk(const RosToTrkParameters&);
+  /// The chip's size must be more than 0.
+  TfToTrk(const OutgoingForm&, const TfToTrkOptions&);
 
   /// `now` is the steady clock, ns, here and below.
   void take(const sensor_msgs::CameraInfo&, std::int64_t now);

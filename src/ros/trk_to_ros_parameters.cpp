@@ -2,81 +2,165 @@
 
 #include <utility>
 
-#include "shared_parameters.h"
-#include "parameter_reader.h"
+#include "camera_markers.h"
+#include "trk_bridge/endpoints/endpoints.h"
+#include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {
 namespace {
 
-using XmlRpc::XmlRpcValue;
+constexpr const char* source_needed = "must be given: an endpoint URL such as udp://:7000, shm:7 or file:take.trk";
+
+tl::expected<transport::SourceEndpoint, std::string> parse_source(const std::string& url) {
+  if (url.empty()) return tl::make_unexpected(std::string(source_needed));
+  return endpoints::parse_source(url);
+}
+
+/// A camera and the reader of its parameters, which knows which of them are sound.
+struct Reading {
+  CameraParameters camera;
+  ParameterReader reader;
+};
 
 /// What a camera has of its own or inherits from the node.
-void read_shared(ParameterReader& reader, CameraParameters& camera, std::vector<std::string>& faults) {
-  take(reader.text("source"), camera.source);
-  take(reader.text("studio_frame"), camera.studio_frame);
-  take(reader.text("format"), camera.format);
-  take(reader.number("delay"), camera.delay);
-  take(reader.flag("publish_tf"), camera.publish_tf);
-  take(reader.flag("publish_camera_info"), camera.publish_camera_info);
-  take(reader.flag("publish_markers"), camera.publish_markers);
-  take(reader.number("marker_far"), camera.marker_far);
-  if (auto constants = read_constants(reader, faults)) camera.constants = constants;
+void read_shared(ParameterReader& reader, CameraParameters& camera) {
+  auto& options = camera.options;
+  reader.parsed("source", camera.source, parse_source);
+  reader.parsed("studio_frame", camera.frames.studio, parse_frame);
+  reader.parsed("format", options.format, parse_published_format);
+  reader.number("delay", options.delay, {0, 60, "seconds"});
+  reader.constants("constants", options.constants);
+  reader.flag("publish_tf", options.publish_tf);
+  reader.flag("publish_camera_info", options.publish_camera_info);
+  reader.flag("publish_markers", camera.publish_markers);
+  reader.number("marker_far", camera.marker_far,
+                more_than(marker_near, "metres (the frustum begins at the lower bound)", 1000));
 }
 
-/// What only one camera can have.
-void read_own(ParameterReader& reader, CameraParameters& camera, std::vector<std::string>& faults) {
-  camera.id = read_id(reader, faults);
-  camera.camera_frame = reader.text("camera_frame").value_or(camera.name);
-  camera.optical_frame = reader.text("optical_frame").value_or(camera.name + "_optical");
+/// What only one camera can have, and the rules between all that it has.
+void read_own(ParameterReader& reader, const std::string& name, CameraParameters& camera) {
+  auto& frames = camera.frames;
+  camera.name = name;
+  if (const auto sound = parse_camera_name(name); !sound) reader.fault("name", shown(name), sound.error());
+  frames.camera = name;
+  frames.optical = name + "_optical";
+  reader.id("id", camera.options.id);
+  reader.parsed("camera_frame", frames.camera, parse_frame);
+  reader.parsed("optical_frame", frames.optical, parse_frame);
+
+  if (!camera.source && reader.are_sound({"source"})) reader.fault("source", "''", source_needed);
+  constexpr const char* must_differ = "must differ from the camera's other frames";
+  if (reader.are_sound({"camera_frame", "studio_frame"}) && frames.camera == frames.studio) {
+    reader.fault("camera_frame", shown(frames.camera), must_differ);
+  }
+  if (reader.are_sound({"optical_frame", "camera_frame", "studio_frame"}) &&
+      (frames.optical == frames.camera || frames.optical == frames.studio)) {
+    reader.fault("optical_frame", shown(frames.optical), must_differ);
+  }
+  if (reader.are_sound({"publish_markers", "publish_camera_info"}) && camera.publish_markers &&
+      !camera.options.publish_camera_info) {
+    reader.fault("publish_markers", "true", "needs publish_camera_info, whose lens is drawn");
+  }
 }
 
-void read_cameras(ParameterReader& node, const CameraParameters& shared, TrkToRosParameters& parameters,
-                  std::vector<std::string>& faults) {
+/// That tf gives both a place.
+void check_frames_of_pair(Reading& one, const Reading& before) {
+  const auto& frames = one.camera.frames;
+  const auto& taken = before.camera.frames;
+  const std::pair<const char*, const std::string&> own[] = {{"camera_frame", frames.camera},
+                                                            {"optical_frame", frames.optical}};
+  for (const auto& [key, frame] : own) {
+    const bool clash = (before.reader.are_sound({"camera_frame"}) && frame == taken.camera) ||
+                       (before.reader.are_sound({"optical_frame"}) && frame == taken.optical);
+    if (one.reader.are_sound({key}) && clash) {
+      one.reader.fault(key, shown(frame),
+                       "is a frame of camera " + before.camera.name + ", too: a frame has one parent");
+    }
+  }
+}
+
+/// That the records of one source can be told apart.
+void check_ids_of_pair(Reading& one, const Reading& before) {
+  if (!one.reader.are_sound({"id"}) || !before.reader.are_sound({"id"})) return;
+  const auto& id = one.camera.options.id;
+  const auto& taken = before.camera.options.id;
+  if (!id || !taken) {
+    one.reader.fault("id", "(none)",
+                     "cameras " + before.camera.name + " and " + one.camera.name + " share " +
+                         shown(one.camera.source->url) + ": each must say its id (camera " +
+                         (id ? before : one).camera.name + " does not)");
+  } else if (id == taken) {
+    one.reader.fault("id", std::to_string(*id),
+                     "is camera " + before.camera.name + "'s, too: ids on one source must differ");
+  }
+}
+
+void check_pair(Reading& one, const Reading& before) {
+  check_frames_of_pair(one, before);
+  const auto& source = one.camera.source;
+  const auto& other = before.camera.source;
+  if (!one.reader.are_sound({"source"}) || !before.reader.are_sound({"source"}) || !source || !other) return;
+  if (source->url == other->url) {
+    check_ids_of_pair(one, before);
+  } else if (source->place == other->place) {
+    one.reader.fault("source", shown(source->url),
+                     "camera " + before.camera.name + " has the same port, slot or file as " + shown(other->url) +
+                         ": cameras on one source must give the very same URL");
+  }
+}
+
+std::vector<CameraParameters> read_cameras(ParameterReader& node, const CameraParameters& shared) {
   for (const char* key : {"id", "camera_frame", "optical_frame"}) {
     node.know(key);
-    if (node.has(key)) faults.push_back(node.path() + key + ": with cameras, it belongs to each of them");
+    if (node.has(key)) node.fault(key, "with cameras, it belongs to each of them");
   }
-  const auto tree = node.map("cameras");
-  if (!tree) return;
-  ParameterReader cameras(*tree, node.path() + "cameras/", faults);
-  for (const auto& name : cameras.keys()) {
-    const auto one = cameras.map(name);
-    if (!one) continue;
-    ParameterReader reader(*one, cameras.path() + name + "/", faults);
-    CameraParameters camera = shared;
-    camera.name = name;
-    read_shared(reader, camera, faults);
-    read_own(reader, camera, faults);
-    reader.refuse_unknown();
-    parameters.cameras.push_back(std::move(camera));
+  auto cameras = node.map("cameras");
+  if (!cameras) return {};
+  const auto names = cameras->keys();
+  if (names.empty()) node.fault("cameras", "{}", "must have at least one camera");
+  std::vector<Reading> all;
+  for (const auto& name : names) {
+    auto reader = cameras->map(name);
+    if (!reader) continue;
+    reader->inherit(node);
+    Reading one{shared, *std::move(reader)};
+    read_shared(one.reader, one.camera);
+    read_own(one.reader, name, one.camera);
+    for (const auto& before : all) check_pair(one, before);
+    one.reader.refuse_unknown();
+    all.push_back(std::move(one));
   }
+  std::vector<CameraParameters> read;
+  for (auto& one : all) read.push_back(std::move(one.camera));
+  return read;
 }
 
 }  // namespace
 
-TrkToRosParameters read_trk_to_ros_parameters(const XmlRpcValue& tree, const std::string& camera_name) {
-  std::vector<std::string> faults;
-  ParameterReader node(tree, "~", faults);
-  check_diagnostic_period(node, faults);
+tl::expected<std::optional<std::uint32_t>, std::string> parse_published_format(const std::string& words) {
+  if (words == as_received) return std::nullopt;
+  const auto mask = wire::format_from_words(words);
+  if (!mask) return tl::make_unexpected(mask.error() + "; or " + as_received);
+  return *mask;
+}
+
+TrkToRosParameters read_trk_to_ros_parameters(const XmlRpc::XmlRpcValue& tree, const std::string& camera_name) {
+  ParameterReader node(tree);
   TrkToRosParameters parameters;
-  take(node.number("field_rate"), parameters.field_rate);
-  take(node.text("stamp"), parameters.stamp);
-  take(node.integer("queue_size"), parameters.queue_size);
+  node.diagnostic_period();
+  node.number("field_rate", parameters.field_rate, field_rate_range);
+  node.integer("queue_size", parameters.queue_size, {1, 100000});
   CameraParameters camera;
-  camera.name = camera_name;
-  read_shared(node, camera, faults);
+  read_shared(node, camera);
   parameters.several = node.has("cameras");
   if (parameters.several) {
-    read_cameras(node, camera, parameters, faults);
+    parameters.cameras = read_cameras(node, camera);
   } else {
     node.know("cameras");
-    read_own(node, camera, faults);
+    read_own(node, camera_name, camera);
     parameters.cameras.push_back(std::move(camera));
   }
-  node.refuse_unknown();
-  // A value of the wrong type was left at its default: judging that as well would blame what nobody wrote.
-  if (faults.empty()) faults = validate(parameters);
-  if (!faults.empty()) throw ParameterError(faults);
+  node.finish();
   return parameters;
 }
 

@@ -5,8 +5,8 @@
 
 #include "fixture.h"
 #include "free_slot.h"
-#include "temporary_directory.h"
 #include "ros/trk_to_ros_parameters.h"
+#include "temporary_directory.h"
 #include "trk_bridge/transport/sink.h"
 
 namespace trk_bridge::test {

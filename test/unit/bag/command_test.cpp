@@ -13,6 +13,7 @@
 namespace trk_bridge::bag {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -59,6 +60,8 @@ TEST_F(BagCommandTest, WrongOptionsAreUsageErrors) {
   EXPECT_THAT(said, HasSubstr("\"yesterday\" is no date: YYYY-MM-DD"));
   EXPECT_EQ(run({take, bag, "--start", "now"}), 2);
   EXPECT_EQ(run({take, bag, "--field-rate", "0"}), 2);
+  EXPECT_EQ(run({take, bag, "--format", "upside_down"}), 2);
+  EXPECT_THAT(said, AllOf(HasSubstr("--format"), HasSubstr("upside_down"), HasSubstr("as_received")));
   EXPECT_EQ(run({take, directory / "other.trk"}), 2);
   EXPECT_THAT(said, HasSubstr("the name of a bag ends in .bag"));
   EXPECT_EQ(run({bag, directory / "other.bag"}), 2);

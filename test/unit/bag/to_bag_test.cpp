@@ -8,6 +8,7 @@
 #include <trk_bridge/CameraParams.h>
 
 #include "fixture.h"
+#include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::bag {
 namespace {
@@ -147,7 +148,7 @@ TEST_F(ToBag, TheFieldRateNeedNotBeRepeatedOnTheWayBack) {
 
 TEST_F(ToBag, ParamsCanBeToldInAnotherFormat) {
   TakeToBagOptions options;
-  options.format = "euler studio_y_up";
+  options.format = wire::euler | wire::studio_y_up;
   const auto back = to_take(to_bag(take_of(some_fields(1)), options));
   EXPECT_EQ(back.params.at(0).format, 9u);
   EXPECT_NEAR(back.params[0].euler.z, 2, 1e-12);
@@ -193,8 +194,14 @@ TEST_F(ToBag, WrongOptionsAreNamedAndNothingStays) {
   options.camera = "no name";
   EXPECT_THAT(refused(options), HasSubstr("'no name'"));
   options = {};
-  options.format = "upside_down";
-  EXPECT_THAT(refused(options), HasSubstr("upside_down"));
+  options.optical_frame = "/optical";
+  EXPECT_THAT(refused(options), HasSubstr("--optical-frame = '/optical': must be a tf frame"));
+  options = {};
+  options.camera_frame = options.studio_frame;
+  EXPECT_THAT(refused(options), HasSubstr("'studio': studio, camera and optical frame must differ"));
+  options = {};
+  options.field_rate = 0;
+  EXPECT_THAT(refused(options), HasSubstr("--field-rate = 0: must be 1 to 1000 Hz"));
   options = {};
   options.field_rate = 24;
   EXPECT_THAT(refused(options), HasSubstr("10:20:30:12:1"));

@@ -10,6 +10,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string refusal(const XmlRpc::XmlRpcValue& tree) {
   try {
@@ -66,6 +67,13 @@ TEST(TestCardParameters, ThereIsAlwaysSomethingToTellLinesApartBy) {
     tree["spacing"] = spacing;
     EXPECT_THAT(refusal(tree), HasSubstr("~spacing = "));
   }
+}
+
+TEST(TestCardParameters, SizesAreNotJudgedByASpacingThatIsWrong) {
+  XmlRpc::XmlRpcValue tree;
+  tree["spacing"] = "narrow";
+  tree["width"] = 500;
+  EXPECT_THAT(refusal(tree), AllOf(HasSubstr("~spacing = 'narrow': must be a number"), Not(HasSubstr("~width"))));
 }
 
 TEST(TestCardParameters, FramesMustBeFrames) {

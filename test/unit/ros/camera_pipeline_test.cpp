@@ -15,14 +15,7 @@ constexpr std::int64_t second = 1'000'000'000;
 constexpr std::int64_t today = 1'700'000'000 * second;
 constexpr std::int64_t field = 20'000'000;
 
-CameraParameters parameters() {
-  CameraParameters p;
-  p.name = "crane1";
-  p.source = "memory:pipeline";
-  p.camera_frame = "crane1";
-  p.optical_frame = "crane1_optical";
-  return p;
-}
+const CameraFrames frames{"studio", "crane1", "crane1_optical"};
 
 wire::CameraConstants constants(std::uint32_t id = 0) { return {id, 1920, 1080, 0, 0, 0, 0, 9.59, 5.39, 9.59, 5.39}; }
 
@@ -45,9 +38,9 @@ transport::Sample sample(const wire::Record& record, std::int64_t arrival = toda
 }
 
 TEST(CameraPipeline, OneStampForEverythingOfASample) {
-  auto p = parameters();
-  p.delay = 0.04;
-  CameraPipeline pipeline(p, 50);
+  CameraOptions options;
+  options.delay = 0.04;
+  CameraPipeline pipeline(options, frames, 50);
   EXPECT_TRUE(pipeline.process(sample(constants()), 0).constants);
   const auto made = pipeline.process(sample(params(1)), 5);
   ASSERT_TRUE(made.params && made.camera_info && made.transform);
@@ -63,7 +56,7 @@ TEST(CameraPipeline, OneStampForEverythingOfASample) {
 }
 
 TEST(CameraPipeline, DuplicatesAndLateOnesGiveNothingARestartDoes) {
-  CameraPipeline pipeline(parameters(), 50);
+  CameraPipeline pipeline({}, frames, 50);
   const auto published = [&pipeline](std::uint64_t counter, std::int64_t arrival) {
     const auto made = pipeline.process(sample(params(counter), arrival), 0);
     EXPECT_EQ(made.params, made.transform);
@@ -86,7 +79,7 @@ TEST(CameraPipeline, DuplicatesAndLateOnesGiveNothingARestartDoes) {
 }
 
 TEST(CameraPipeline, AMatrixThatIsNoRotationIsDropped) {
-  CameraPipeline pipeline(parameters(), 50);
+  CameraPipeline pipeline({}, frames, 50);
   auto p = params(1);
   p.format = 0;
   p.matrix = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -97,7 +90,7 @@ TEST(CameraPipeline, AMatrixThatIsNoRotationIsDropped) {
 }
 
 TEST(CameraPipeline, WhatIsNotFiniteIsDropped) {
-  CameraPipeline pipeline(parameters(), 50);
+  CameraPipeline pipeline({}, frames, 50);
   std::uint64_t counter = 0;
   for (double wire::CameraParams::*field_of : {&wire::CameraParams::fov, &wire::CameraParams::k1,
                                                &wire::CameraParams::center_x, &wire::CameraParams::focdist}) {
@@ -115,7 +108,7 @@ TEST(CameraPipeline, WhatIsNotFiniteIsDropped) {
 }
 
 TEST(CameraPipeline, WithholdsParamsThatNeedUnknownConstantsWhileTheTransformGoesOn) {
-  CameraPipeline pipeline(parameters(), 50);
+  CameraPipeline pipeline({}, frames, 50);
   auto p = params(1);
   p.format |= wire::field_of_view;
   p.fov = 50;
@@ -135,9 +128,9 @@ TEST(CameraPipeline, WithholdsParamsThatNeedUnknownConstantsWhileTheTransformGoe
 }
 
 TEST(CameraPipeline, AsReceivedLeavesTheRecordAlone) {
-  auto configured = parameters();
-  configured.format = as_received;
-  CameraPipeline pipeline(configured, 50);
+  CameraOptions configured;
+  configured.format.reset();
+  CameraPipeline pipeline(configured, frames, 50);
   auto p = params(1);
   p.format |= wire::field_of_view | wire::diagonal | wire::shift_in_pixels | 0x400;
   p.fov = 50;
@@ -149,11 +142,11 @@ TEST(CameraPipeline, AsReceivedLeavesTheRecordAlone) {
 }
 
 TEST(CameraPipeline, ReceivedConstantsWinOverTheParameterAndOwnOnesOverThoseOfAnyCamera) {
-  auto configured = parameters();
+  CameraOptions configured;
   configured.id = 7;
   configured.constants = constants();
   configured.constants->image_width = 720;
-  CameraPipeline pipeline(configured, 50);
+  CameraPipeline pipeline(configured, frames, 50);
   ASSERT_TRUE(pipeline.has_constants());
   EXPECT_EQ(pipeline.constants().image_width, 720);
   EXPECT_EQ(pipeline.statistics().constants, ConstantsOrigin::parameter);
@@ -172,7 +165,7 @@ TEST(CameraPipeline, ReceivedConstantsWinOverTheParameterAndOwnOnesOverThoseOfAn
 }
 
 TEST(CameraPipeline, ConstantsWithoutAPictureAreIgnored) {
-  CameraPipeline pipeline(parameters(), 50);
+  CameraPipeline pipeline({}, frames, 50);
   ASSERT_TRUE(pipeline.process(sample(constants()), 0).constants);
   auto bad = constants();
   bad.blank_left = 1920;
@@ -182,10 +175,10 @@ TEST(CameraPipeline, ConstantsWithoutAPictureAreIgnored) {
 }
 
 TEST(CameraPipeline, WantsItsIdOrAnyWhereItHasNone) {
-  auto configured = parameters();
-  EXPECT_TRUE(CameraPipeline(configured, 50).wants(params(1, 3)));
+  CameraOptions configured;
+  EXPECT_TRUE(CameraPipeline(configured, frames, 50).wants(params(1, 3)));
   configured.id = 7;
-  const CameraPipeline pipeline(configured, 50);
+  const CameraPipeline pipeline(configured, frames, 50);
   EXPECT_TRUE(pipeline.wants(params(1, 7)));
   EXPECT_FALSE(pipeline.wants(params(1, 3)));
   EXPECT_FALSE(pipeline.wants(params(1, 0)));
@@ -195,13 +188,13 @@ TEST(CameraPipeline, WantsItsIdOrAnyWhereItHasNone) {
 }
 
 TEST(CameraPipeline, CountsIdsThatChange) {
-  CameraPipeline pipeline(parameters(), 50);
+  CameraPipeline pipeline({}, frames, 50);
   for (const std::uint32_t id : {3u, 3u, 4u, 3u}) (void)pipeline.process(sample(params(1, id)), 0);
   EXPECT_EQ(pipeline.statistics().id_changes, 2u);
 }
 
 TEST(CameraPipeline, NoCameraInfoForALensThatFoldsTheImage) {
-  CameraPipeline pipeline(parameters(), 50);
+  CameraPipeline pipeline({}, frames, 50);
   ASSERT_TRUE(pipeline.process(sample(constants()), 0).constants);
   auto p = params(1);
   p.k1 = -0.05;  // folds at r = sqrt(1 / 0.15) = 2.6 mm, the corner is at 5.5 mm
@@ -212,10 +205,10 @@ TEST(CameraPipeline, NoCameraInfoForALensThatFoldsTheImage) {
 }
 
 TEST(CameraPipeline, WhatIsSwitchedOffIsNotMade) {
-  auto configured = parameters();
+  CameraOptions configured;
   configured.publish_tf = false;
   configured.publish_camera_info = false;
-  CameraPipeline pipeline(configured, 50);
+  CameraPipeline pipeline(configured, frames, 50);
   ASSERT_TRUE(pipeline.process(sample(constants()), 0).constants);
   const auto made = pipeline.process(sample(params(1)), 0);
   EXPECT_TRUE(made.params);
@@ -224,7 +217,7 @@ TEST(CameraPipeline, WhatIsSwitchedOffIsNotMade) {
 }
 
 TEST(CameraPipeline, ATimeOutsideOfRosTimeIsDropped) {
-  CameraPipeline pipeline(parameters(), 50);
+  CameraPipeline pipeline({}, frames, 50);
   EXPECT_FALSE(pipeline.process(sample(params(1), -1), 0).transform);
   EXPECT_EQ(pipeline.statistics().unstampable, 1u);
   EXPECT_TRUE(pipeline.process(sample(params(2)), 0).transform);

@@ -16,7 +16,6 @@ constexpr std::int64_t second = 1'000'000'000;
 class Diagnostics : public ::testing::Test {
  protected:
   Diagnostics() {
-    parameters.name = "crane1";
     now.source_name = before.source_name = "udp port 7000";
     before.time = 10 * second;
     now.time = 12 * second;
@@ -28,7 +27,7 @@ class Diagnostics : public ::testing::Test {
 
   diagnostic_updater::DiagnosticStatusWrapper status() {
     diagnostic_updater::DiagnosticStatusWrapper s;
-    fill(s, findings(now, before, parameters, 50), now, before);
+    fill(s, findings(now, before, options, 50), now, before);
     return s;
   }
 
@@ -45,7 +44,7 @@ class Diagnostics : public ::testing::Test {
     EXPECT_THAT(s.message, HasSubstr(text));
   }
 
-  CameraParameters parameters;
+  CameraOptions options;
   CameraReport now, before;
 };
 
@@ -83,7 +82,7 @@ TEST_F(Diagnostics, SendersThatAreNotAllowed) {
 
 TEST_F(Diagnostics, OtherIdsOnly) {
   now.camera = {};
-  parameters.id = 7;
+  options.id = 7;
   now.reader.unknown_id_records = 5;
   now.reader.unknown_ids = {3, 4};
   now.reader.unknown_id_count = 2;
@@ -116,7 +115,7 @@ TEST_F(Diagnostics, AFileThatEndedIsInOrder) {
 TEST_F(Diagnostics, NoConstantsYet) {
   now.camera.constants = ConstantsOrigin::none;
   expect(DiagnosticStatus::WARN, "no constants yet");
-  parameters.publish_camera_info = false;
+  options.publish_camera_info = false;
   expect(DiagnosticStatus::OK, "receiving");
 }
 

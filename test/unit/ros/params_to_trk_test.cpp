@@ -11,12 +11,10 @@
 namespace trk_bridge::ros1 {
 namespace {
 
-RosToTrkParameters parameters(const std::string& format = "euler") {
-  RosToTrkParameters p;
-  p.name = "crane1";
-  p.sinks = {"shm:7"};
-  p.format = format;
-  return p;
+OutgoingForm form_of(const std::string& words) {
+  OutgoingForm form;
+  form.format = wire::format_from_words(words).value();
+  return form;
 }
 
 trk_bridge::CameraConstants constants(std::uint32_t id = 0) {
@@ -45,7 +43,7 @@ trk_bridge::CameraParams message(const wire::CameraParams& params) {
 }
 
 TEST(ParamsToTrk, WhatNeedsNoChangeKeepsItsDoublesItsCounterAndItsId) {
-  ParamsToTrk converter(parameters());
+  ParamsToTrk converter({});
   const auto p = record(1000, 7);
   const auto made = converter.take(message(p), 5);
   ASSERT_TRUE(made.params);
@@ -56,9 +54,9 @@ TEST(ParamsToTrk, WhatNeedsNoChangeKeepsItsDoublesItsCounterAndItsId) {
 }
 
 TEST(ParamsToTrk, AGivenIdCountsForParamsAndConstants) {
-  auto configured = parameters();
-  configured.id = 3;
-  ParamsToTrk converter(configured);
+  OutgoingForm form;
+  form.id = 3;
+  ParamsToTrk converter(form);
   converter.take(constants(9));
   const auto made = converter.take(message(record(1, 7)), 0);
   ASSERT_TRUE(made.params && made.constants);
@@ -67,7 +65,7 @@ TEST(ParamsToTrk, AGivenIdCountsForParamsAndConstants) {
 }
 
 TEST(ParamsToTrk, ConstantsBearTheIdOfTheParamsTheyGoWith) {
-  ParamsToTrk converter(parameters());
+  ParamsToTrk converter({});
   converter.take(constants(0));
   EXPECT_EQ(converter.take(message(record(1, 7)), 0).constants->id, 7u);
   EXPECT_FALSE(converter.take(message(record(2, 7)), 0).constants) << "told before";
@@ -75,7 +73,7 @@ TEST(ParamsToTrk, ConstantsBearTheIdOfTheParamsTheyGoWith) {
 }
 
 TEST(ParamsToTrk, ChangedConstantsGoOutAgainUnchangedOnesDoNot) {
-  ParamsToTrk converter(parameters());
+  ParamsToTrk converter({});
   converter.take(constants());
   EXPECT_TRUE(converter.take(message(record(1)), 0).constants);
   converter.take(constants());
@@ -89,11 +87,10 @@ TEST(ParamsToTrk, ChangedConstantsGoOutAgainUnchangedOnesDoNot) {
 }
 
 TEST(ParamsToTrk, AReceiverThatTakesNoIdIsSentNone) {
-  auto configured = parameters();
-  configured.format.reset();
-  configured.preset = "unreal_trackmen";
-  configured.id = 4;
-  ParamsToTrk converter(configured);
+  OutgoingForm form;
+  form.sends_id = false;
+  form.id = 4;
+  ParamsToTrk converter(form);
   converter.take(constants(4));
   const auto made = converter.take(message(record(1, 7)), 0);
   ASSERT_TRUE(made.params && made.constants);
@@ -104,19 +101,19 @@ TEST(ParamsToTrk, AReceiverThatTakesNoIdIsSentNone) {
 
 TEST(ParamsToTrk, ConstantsFollowTheOutgoingAspect) {
   // 720 of 702 columns are chip: 8.8 mm * 720 / 702 = 9.025641 mm; rows have no blanks.
-  ParamsToTrk adjust(parameters("euler ignore_blank adjust_aspect"));
+  ParamsToTrk adjust(form_of("euler ignore_blank adjust_aspect"));
   adjust.take(constants());
   const auto adjusted = adjust.take(message(record()), 0).constants;
   ASSERT_TRUE(adjusted);
   EXPECT_NEAR(adjusted->fake_chip_width, 9.025641025641026, 1e-12);
   EXPECT_NEAR(adjusted->fake_chip_height, 6.6, 1e-12);
-  ParamsToTrk keep(parameters("euler ignore_blank keep_aspect"));
+  ParamsToTrk keep(form_of("euler ignore_blank keep_aspect"));
   keep.take(constants());
   EXPECT_NEAR(keep.take(message(record()), 0).constants->fake_chip_height, 6.769230769230769, 1e-12);
 }
 
 TEST(ParamsToTrk, WhatNeedsUnknownConstantsIsWithheldUntilTheyCome) {
-  ParamsToTrk converter(parameters("euler field_of_view"));
+  ParamsToTrk converter(form_of("euler field_of_view"));
   EXPECT_FALSE(converter.take(message(record()), 0).params);
   EXPECT_EQ(converter.statistics().outgoing.withheld, 1u);
   EXPECT_EQ(converter.statistics().outgoing.withhold_reason, camera::CameraReason::constants_needed);
@@ -127,9 +124,7 @@ TEST(ParamsToTrk, WhatNeedsUnknownConstantsIsWithheldUntilTheyCome) {
 }
 
 TEST(ParamsToTrk, ConstantsOfTheParameterServeUntilOthersCome) {
-  auto configured = parameters();
-  configured.constants = wire::CameraConstants{0, 1920, 1080, 0, 0, 0, 0, 9.59, 5.39, 0, 0};
-  ParamsToTrk converter(configured);
+  ParamsToTrk converter({}, wire::CameraConstants{0, 1920, 1080, 0, 0, 0, 0, 9.59, 5.39, 0, 0});
   EXPECT_EQ(converter.take(message(record(1)), 0).constants->image_width, 1920);
   EXPECT_FALSE(converter.statistics().constants_received);
   converter.take(constants());
@@ -138,7 +133,7 @@ TEST(ParamsToTrk, ConstantsOfTheParameterServeUntilOthersCome) {
 }
 
 TEST(ParamsToTrk, ConstantsWithoutAPictureAreIgnored) {
-  ParamsToTrk converter(parameters());
+  ParamsToTrk converter({});
   auto bad = constants();
   bad.blank_left = 720;
   converter.take(bad);
@@ -147,7 +142,7 @@ TEST(ParamsToTrk, ConstantsWithoutAPictureAreIgnored) {
 }
 
 TEST(ParamsToTrk, WhatIsNoCameraIsDropped) {
-  ParamsToTrk converter(parameters());
+  ParamsToTrk converter({});
   auto p = record();
   p.euler.pan = std::nan("");
   EXPECT_FALSE(converter.take(message(p), 0).params);

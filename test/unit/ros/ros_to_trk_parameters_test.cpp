@@ -1,10 +1,10 @@
 #include "ros/ros_to_trk_parameters.h"
 
 #include <cmath>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
-#include "ros/parameter_reader.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {
@@ -12,24 +12,10 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::Field;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
 using XmlRpc::XmlRpcValue;
-
-RosToTrkParameters of_params() {
-  RosToTrkParameters p;
-  p.name = p.camera_frame = "crane1";
-  p.sinks = {"udp://127.0.0.1:7000"};
-  return p;
-}
-
-RosToTrkParameters of_tf() {
-  auto p = of_params();
-  p.input = "tf";
-  p.chip_width = 9.59;
-  p.chip_height = 5.39;
-  return p;
-}
 
 std::string message_of(const XmlRpcValue& tree) {
   try {
@@ -40,90 +26,148 @@ std::string message_of(const XmlRpcValue& tree) {
   return "no error";
 }
 
+/// One for every fault.
+std::vector<std::string> lines_of(const XmlRpcValue& tree) {
+  std::istringstream text(message_of(tree));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
 XmlRpcValue tree_with_sink() {
   XmlRpcValue tree;
   tree["sinks"][0] = "udp://127.0.0.1:7000";
   return tree;
 }
 
-TEST(ValidateOutgoing, AcceptsBothInputs) {
-  EXPECT_THAT(validate(of_params()), IsEmpty());
-  EXPECT_THAT(validate(of_tf()), IsEmpty());
+XmlRpcValue of_tf() {
+  auto tree = tree_with_sink();
+  tree["input"] = "tf";
+  tree["chip_width"] = 9.59;
+  tree["chip_height"] = 5.39;
+  return tree;
 }
+
+auto has_url(const std::string& url) { return Field(&SinkEndpoint::url, url); }
 
 struct Wrong {
   const char* name;
-  void (*spoil)(RosToTrkParameters&);
+  void (*spoil)(XmlRpcValue&);
   const char* key_and_value;
   const char* allowed;
 };
 
-class ValidateOutgoingWrong : public ::testing::TestWithParam<Wrong> {};
+class ReadOutgoingWrong : public ::testing::TestWithParam<Wrong> {};
 
-TEST_P(ValidateOutgoingWrong, NamesKeyValueAndWhatIsAllowed) {
-  auto p = of_tf();
-  GetParam().spoil(p);
-  EXPECT_THAT(validate(p), ElementsAre(AllOf(HasSubstr(GetParam().key_and_value), HasSubstr(GetParam().allowed))));
+TEST_P(ReadOutgoingWrong, NamesKeyValueAndWhatIsAllowed) {
+  auto tree = of_tf();
+  GetParam().spoil(tree);
+  EXPECT_THAT(lines_of(tree), ElementsAre(AllOf(HasSubstr(GetParam().key_and_value), HasSubstr(GetParam().allowed))));
 }
 
 const Wrong wrong_ones[] = {
-    {"NoSink", [](RosToTrkParameters& p) { p.sinks.clear(); }, "~sinks = []", "must be given"},
-    {"SinkScheme", [](RosToTrkParameters& p) { p.sinks[0] = "tcp://x:1"; }, "~sinks = 'tcp://x:1'", "udp"},
-    {"SinkOption", [](RosToTrkParameters& p) { p.sinks[0] += "?allow=127.0.0.1"; }, "?allow=127.0.0.1'", "binary"},
-    {"SinkTwice", [](RosToTrkParameters& p) { p.sinks.push_back(p.sinks[0]); }, "~sinks = 'udp", "twice"},
-    {"Input", [](RosToTrkParameters& p) { p.input = "topic"; }, "~input = 'topic'", "params or tf"},
-    {"Format", [](RosToTrkParameters& p) { p.format = "eulr"; }, "~format = 'eulr'", "euler"},
-    {"Preset", [](RosToTrkParameters& p) { p.preset = "brainstrom"; }, "~preset = 'brainstrom'", "brainstorm"},
+    {"NoSink", [](XmlRpcValue& t) { (t["sinks"] = XmlRpcValue()).setSize(0); }, "~sinks = []", "must be given"},
+    {"SinkScheme", [](XmlRpcValue& t) { t["sinks"][0] = "tcp://x:1"; }, "~sinks = 'tcp://x:1'", "udp"},
+    {"SinkOption", [](XmlRpcValue& t) { t["sinks"][0] = "udp://127.0.0.1:7000?allow=127.0.0.1"; }, "?allow=127.0.0.1'",
+     "binary"},
+    {"SinkTwice", [](XmlRpcValue& t) { t["sinks"][1] = "udp://127.0.0.1:7000"; }, "~sinks = 'udp", "twice"},
+    {"Input", [](XmlRpcValue& t) { t["input"] = "topic"; }, "~input = 'topic'", "must be params or tf"},
+    {"InputType", [](XmlRpcValue& t) { t["input"] = 1; }, "~input = 1", "must be params or tf"},
+    {"Format", [](XmlRpcValue& t) { t["format"] = "eulr"; }, "~format = 'eulr'", "euler"},
+    {"Preset", [](XmlRpcValue& t) { t["preset"] = "brainstrom"; }, "~preset = 'brainstrom'", "brainstorm"},
     {"Both",
-     [](RosToTrkParameters& p) {
-       p.format = "euler";
-       p.preset = "orad";
+     [](XmlRpcValue& t) {
+       t["format"] = "euler";
+       t["preset"] = "orad";
      },
      "~preset = 'orad'", "must not be given with format"},
-    {"Queue", [](RosToTrkParameters& p) { p.queue_size = 0; }, "~queue_size = 0", "1 to 100000"},
-    {"Constants", [](RosToTrkParameters& p) { p.constants = wire::CameraConstants{}; }, "~constants", "image"},
-    {"Rate", [](RosToTrkParameters& p) { p.rate = 0.5; }, "~rate = 0.5", "1 to 1000 Hz"},
-    {"RateNan", [](RosToTrkParameters& p) { p.rate = std::nan(""); }, "~rate = nan", "1 to 1000 Hz"},
-    {"NoChip", [](RosToTrkParameters& p) { p.chip_width.reset(); }, "~chip_width = (none)", "must be given"},
-    {"Chip", [](RosToTrkParameters& p) { p.chip_height = -1; }, "~chip_height = -1", "more than 0 mm"},
-    {"Blank", [](RosToTrkParameters& p) { p.blank_top = -1; }, "~blank_top = -1", "0 or more"},
-    {"Frame", [](RosToTrkParameters& p) { p.camera_frame = "/crane1"; }, "~camera_frame = '/crane1'", "leading slash"},
-    {"SameFrame", [](RosToTrkParameters& p) { p.camera_frame = "studio"; }, "~camera_frame = 'studio'", "must differ"},
-    {"Focus", [](RosToTrkParameters& p) { p.focdist = -1; }, "~focdist = -1", "0 or more"},
-    {"Aperture", [](RosToTrkParameters& p) { p.aperture = std::nan(""); }, "~aperture = nan", "0 or more"},
+    {"Queue", [](XmlRpcValue& t) { t["queue_size"] = 0; }, "~queue_size = 0", "1 to 100000"},
+    {"Constants",
+     [](XmlRpcValue& t) {
+       t["input"] = "params";
+       for (const char* key : {"image_width", "image_height", "chip_width", "chip_height"}) t["constants"][key] = 0;
+     },
+     "~constants", "image"},
+    {"Rate", [](XmlRpcValue& t) { t["rate"] = 0.5; }, "~rate = 0.5", "1 to 1000 Hz"},
+    {"RateNan", [](XmlRpcValue& t) { t["rate"] = std::nan(""); }, "~rate = nan", "1 to 1000 Hz"},
+    {"NoChip",
+     [](XmlRpcValue& t) {
+       t = tree_with_sink();
+       t["input"] = "tf";
+       t["chip_height"] = 5.39;
+     },
+     "~chip_width = (none)", "must be given"},
+    {"Chip", [](XmlRpcValue& t) { t["chip_height"] = -1; }, "~chip_height = -1", "more than 0 mm"},
+    {"Blank", [](XmlRpcValue& t) { t["blank_top"] = -1; }, "~blank_top = -1", "0 or more pixels"},
+    {"Frame", [](XmlRpcValue& t) { t["camera_frame"] = "/crane1"; }, "~camera_frame = '/crane1'", "leading slash"},
+    {"SameFrame", [](XmlRpcValue& t) { t["camera_frame"] = "studio"; }, "~camera_frame = 'studio'", "must differ"},
+    {"Focus", [](XmlRpcValue& t) { t["focdist"] = -1; }, "~focdist = -1", "0 or more metres"},
+    {"Aperture", [](XmlRpcValue& t) { t["aperture"] = std::nan(""); }, "~aperture = nan", "0 or more"},
 };
-INSTANTIATE_TEST_SUITE_P(One, ValidateOutgoingWrong, ::testing::ValuesIn(wrong_ones),
+INSTANTIATE_TEST_SUITE_P(One, ReadOutgoingWrong, ::testing::ValuesIn(wrong_ones),
                          [](const auto& test) { return test.param.name; });
 
-TEST(ValidateOutgoing, OnlyTfNeedsAChip) {
-  auto p = of_params();
-  EXPECT_FALSE(p.chip_width);
-  p.sinks = {"shm:7", "file:take.trk?overwrite=1"};
-  EXPECT_THAT(validate(p), IsEmpty());
+TEST(ReadOutgoing, OnlyTfNeedsAChip) {
+  XmlRpcValue tree;
+  tree["sinks"][0] = "shm:7";
+  tree["sinks"][1] = "file:take.trk?overwrite=1";
+  EXPECT_EQ(message_of(tree), "no error");
+}
+
+TEST(ReadOutgoing, EveryKindOfFaultIsShownAtOnce) {
+  auto tree = of_tf();
+  tree["sinks"][1] = "udp://";
+  tree["sinks"][2] = "shm:99";
+  tree["rate"] = "fast";
+  tree["focdist"] = -1;
+  tree["apperture"] = 2;
+  tree["camera_frame"] = "studio";
+  EXPECT_THAT(lines_of(tree),
+              UnorderedElementsAre(HasSubstr("~sinks = 'udp://'"), HasSubstr("~sinks = 'shm:99'"),
+                                   HasSubstr("~rate = 'fast': must be a number"), HasSubstr("~focdist = -1"),
+                                   HasSubstr("~apperture = 2: no such parameter, nearest is aperture"),
+                                   HasSubstr("~camera_frame = 'studio': must differ")));
+}
+
+TEST(ReadOutgoing, ARuleIsNotJudgedOnFaultyInput) {
+  auto tree = tree_with_sink();
+  tree["input"] = "tff";
+  tree["blank_left"] = 3;
+  EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~input = 'tff'")))
+      << "who knows whether it needs a chip, or may have blanks";
+
+  tree = tree_with_sink();
+  tree["format"] = 7;
+  tree["preset"] = "orad";
+  EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~format = 7: must be text")));
+
+  tree = of_tf();
+  tree["studio_frame"] = "/studio";
+  tree["camera_frame"] = "studio";
+  EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~studio_frame = '/studio'")));
 }
 
 TEST(ReadOutgoing, Defaults) {
   const auto p = read_ros_to_trk_parameters(tree_with_sink(), "crane1");
   EXPECT_EQ(p.name, "crane1");
-  EXPECT_THAT(p.sinks, ElementsAre("udp://127.0.0.1:7000"));
-  EXPECT_EQ(p.input, "params");
+  EXPECT_THAT(p.sinks, ElementsAre(has_url("udp://127.0.0.1:7000")));
+  EXPECT_EQ(p.input, OutgoingInput::params);
   EXPECT_EQ(p.rate, 50);
   EXPECT_EQ(p.studio_frame, "studio");
   EXPECT_EQ(p.camera_frame, "crane1");
-  EXPECT_FALSE(p.camera_frame_is_optical || p.id || p.constants);
-  const auto form = form_of(p);
-  EXPECT_EQ(form.format, std::uint32_t{wire::euler});
-  EXPECT_TRUE(form.sends_id);
+  EXPECT_FALSE(p.tf.camera_frame_is_optical || p.form.id || p.constants);
+  EXPECT_EQ(p.form.format, std::uint32_t{wire::euler});
+  EXPECT_TRUE(p.form.sends_id);
 }
 
 TEST(ReadOutgoing, OneSinkMayBeATextAndSeveralAreAList) {
   XmlRpcValue tree;
   tree["sinks"] = "shm:7";
-  EXPECT_THAT(read_ros_to_trk_parameters(tree, "c").sinks, ElementsAre("shm:7"));
+  EXPECT_THAT(read_ros_to_trk_parameters(tree, "c").sinks, ElementsAre(has_url("shm:7")));
   tree["sinks"] = XmlRpcValue();
   tree["sinks"][0] = "shm:7";
   tree["sinks"][1] = "shm:8";
-  EXPECT_THAT(read_ros_to_trk_parameters(tree, "c").sinks, ElementsAre("shm:7", "shm:8"));
+  EXPECT_THAT(read_ros_to_trk_parameters(tree, "c").sinks, ElementsAre(has_url("shm:7"), has_url("shm:8")));
   tree["sinks"][1] = 8;
   EXPECT_THAT(message_of(tree), AllOf(HasSubstr("~sinks"), HasSubstr("must be a list of texts")));
 }
@@ -144,21 +188,21 @@ TEST(ReadOutgoing, EverythingOfTf) {
   tree["preset"] = "orad";
   const auto p = read_ros_to_trk_parameters(tree, "crane1");
   EXPECT_EQ(p.rate, 25);
-  EXPECT_EQ(p.chip_height, 5.0);
-  EXPECT_EQ(p.blank_left, 3);
+  EXPECT_EQ(p.tf.chip.chip_height, 5.0);
+  EXPECT_EQ(p.tf.chip.blank_left, 3);
   EXPECT_EQ(p.studio_frame, "stage");
   EXPECT_EQ(p.camera_frame, "head_optical");
-  EXPECT_TRUE(p.camera_frame_is_optical);
-  EXPECT_EQ(p.focdist, 4);
-  EXPECT_EQ(p.aperture, 2.8);
-  EXPECT_EQ(p.id, 7u);
-  EXPECT_TRUE(wire::has(form_of(p).format, wire::shift_in_pixels | wire::vertical | wire::camera_y_up));
+  EXPECT_TRUE(p.tf.camera_frame_is_optical);
+  EXPECT_EQ(p.tf.focdist, 4);
+  EXPECT_EQ(p.tf.aperture, 2.8);
+  EXPECT_EQ(p.form.id, 7u);
+  EXPECT_TRUE(wire::has(p.form.format, wire::shift_in_pixels | wire::vertical | wire::camera_y_up));
 }
 
 TEST(ReadOutgoing, TheReceiverThatTakesNoId) {
   auto tree = tree_with_sink();
   tree["preset"] = "unreal_trackmen";
-  EXPECT_FALSE(form_of(read_ros_to_trk_parameters(tree, "c")).sends_id);
+  EXPECT_FALSE(read_ros_to_trk_parameters(tree, "c").form.sends_id);
 }
 
 TEST(ReadOutgoing, WhatBelongsToTheOtherInputIsRefused) {

@@ -22,27 +22,27 @@ struct Case {
   camera::Camera camera;
 };
 
-CameraParameters incoming_parameters(const std::string& format) {
-  CameraParameters p;
-  p.name = p.camera_frame = "crane1";
-  p.source = "memory:round_trip";
-  p.optical_frame = "crane1_optical";
-  p.format = format;
-  return p;
+constexpr std::uint32_t other_format =
+    wire::studio_to_camera | wire::camera_y_up | wire::field_of_view | wire::diagonal;
+
+CameraOptions published_in(std::optional<std::uint32_t> format) {
+  CameraOptions options;
+  options.format = format;
+  return options;
 }
 
-RosToTrkParameters outgoing_parameters(const Case& c) {
-  RosToTrkParameters p;
-  p.name = p.camera_frame = "crane1";
-  p.sinks = {"memory:round_trip"};
-  p.format = wire::format_to_words(c.params.format);
-  return p;
+/// As a person gives it, in words.
+OutgoingForm form_of(const Case& c) {
+  OutgoingForm form;
+  form.format = wire::format_from_words(wire::format_to_words(c.params.format)).value();
+  return form;
 }
 
 /// The messages of a case.
 class Incoming {
  public:
-  Incoming(const Case& c, const std::string& format) : pipeline_(incoming_parameters(format), 50) {
+  Incoming(const Case& c, std::optional<std::uint32_t> format)
+      : pipeline_(published_in(format), {"studio", "crane1", "crane1_optical"}, 50) {
     transport::Sample sample;
     sample.arrival = today;
     sample.record = c.constants;
@@ -58,10 +58,10 @@ class Incoming {
   CameraPipeline pipeline_;
 };
 
-void expect_same_through_params(const Case& c, const std::string& published_format) {
+void expect_same_through_params(const Case& c, std::uint32_t published_format) {
   const Incoming incoming(c, published_format);
   ASSERT_TRUE(incoming.made.params);
-  ParamsToTrk outgoing(outgoing_parameters(c));
+  ParamsToTrk outgoing(form_of(c));
   outgoing.take(incoming->constants());
   const auto made = outgoing.take(incoming->params(), 0);
   ASSERT_TRUE(made.params && made.constants);
@@ -74,19 +74,17 @@ void expect_same_through_params(const Case& c, const std::string& published_form
 }
 
 void expect_same_through_tf(const Case& c) {
-  const Incoming incoming(c, "euler");
+  const Incoming incoming(c, wire::euler);
   ASSERT_TRUE(incoming.made.transform);
   ASSERT_TRUE(incoming.made.camera_info);
-  auto parameters = outgoing_parameters(c);
-  parameters.input = "tf";
-  parameters.chip_width = c.constants.chip_width;
-  parameters.chip_height = c.constants.chip_height;
-  parameters.blank_left = c.constants.blank_left;
-  parameters.blank_right = c.constants.blank_right;
-  parameters.blank_top = c.constants.blank_top;
-  parameters.blank_bottom = c.constants.blank_bottom;
-  ASSERT_TRUE(validate(parameters).empty());
-  TfToTrk outgoing(parameters);
+  TfToTrkOptions options;
+  options.chip.chip_width = c.constants.chip_width;
+  options.chip.chip_height = c.constants.chip_height;
+  options.chip.blank_left = c.constants.blank_left;
+  options.chip.blank_right = c.constants.blank_right;
+  options.chip.blank_top = c.constants.blank_top;
+  options.chip.blank_bottom = c.constants.blank_bottom;
+  TfToTrk outgoing(form_of(c), options);
   outgoing.take(incoming->camera_info(), 0);
   const auto made = outgoing.make(incoming->transform(), 0);
   ASSERT_TRUE(made.params && made.constants);
@@ -131,8 +129,8 @@ constexpr int random_count = 10'000;
 TEST(RoundTrip, EveryWorkedCaseThroughParams) {
   for (const auto& c : worked()) {
     SCOPED_TRACE(wire::format_to_words(c.params.format));
-    ASSERT_NO_FATAL_FAILURE(expect_same_through_params(c, "euler"));
-    ASSERT_NO_FATAL_FAILURE(expect_same_through_params(c, "studio_to_camera camera_y_up field_of_view diagonal"));
+    ASSERT_NO_FATAL_FAILURE(expect_same_through_params(c, wire::euler));
+    ASSERT_NO_FATAL_FAILURE(expect_same_through_params(c, other_format));
   }
 }
 
@@ -145,8 +143,8 @@ TEST(RoundTrip, EveryWorkedCaseThroughTfAndCameraInfo) {
 
 TEST(RoundTrip, AsReceivedIsTheVerySameRecord) {
   for (const auto& c : worked()) {
-    const Incoming incoming(c, as_received);
-    ParamsToTrk outgoing(outgoing_parameters(c));
+    const Incoming incoming(c, std::nullopt);
+    ParamsToTrk outgoing(form_of(c));
     outgoing.take(incoming->constants());
     const auto made = outgoing.take(incoming->params(), 0);
     ASSERT_TRUE(made.params && made.constants);
@@ -162,7 +160,7 @@ TEST(RoundTrip, RandomCamerasThroughParams) {
   for (int i = 0; i < random_count && !HasFailure(); ++i) {
     const auto c = random.next();
     SCOPED_TRACE(i);
-    ASSERT_NO_FATAL_FAILURE(expect_same_through_params(c, "euler"));
+    ASSERT_NO_FATAL_FAILURE(expect_same_through_params(c, wire::euler));
   }
 }
 

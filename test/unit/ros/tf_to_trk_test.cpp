@@ -15,16 +15,13 @@ const ::ros::Time start(1'700'000'000, 0);
 
 ::ros::Time field(int n) { return start + ::ros::Duration(0.02 * n); }
 
-RosToTrkParameters parameters() {
-  RosToTrkParameters p;
-  p.name = p.camera_frame = "crane1";
-  p.sinks = {"shm:7"};
-  p.input = "tf";
-  p.chip_width = 9.6;
-  p.chip_height = 5.4;
-  p.focdist = 3;
-  p.aperture = 2.8;
-  return p;
+TfToTrkOptions options() {
+  TfToTrkOptions o;
+  o.chip.chip_width = 9.6;
+  o.chip.chip_height = 5.4;
+  o.focdist = 3;
+  o.aperture = 2.8;
+  return o;
 }
 
 /// fx = 2000 pixels of 1920 on 9.6 mm: image distance 10 mm.
@@ -50,9 +47,9 @@ geometry_msgs::TransformStamped pose(const ::ros::Time& stamp) {
 }
 
 TEST(TfToTrk, PoseLensAndParametersInOneSet) {
-  auto configured = parameters();
-  configured.id = 7;
-  TfToTrk converter(configured);
+  OutgoingForm form;
+  form.id = 7;
+  TfToTrk converter(form, options());
   converter.take(info(field(0)), 0);
   const auto made = converter.make(pose(field(0)), 9);
   ASSERT_TRUE(made.params && made.constants);
@@ -76,9 +73,9 @@ TEST(TfToTrk, PoseLensAndParametersInOneSet) {
 }
 
 TEST(TfToTrk, AnOpticalFrameIsTurnedBack) {
-  auto configured = parameters();
+  auto configured = options();
   configured.camera_frame_is_optical = true;
-  TfToTrk converter(configured);
+  TfToTrk converter({}, configured);
   converter.take(info(field(0)), 0);
   auto optical = pose(field(0));
   // x right, y down, z forward of a camera that looks along the studio's y axis: a turn of -90 degrees about x.
@@ -93,7 +90,7 @@ TEST(TfToTrk, AnOpticalFrameIsTurnedBack) {
 }
 
 TEST(TfToTrk, CountsUpByOneWithEverySet) {
-  TfToTrk converter(parameters());
+  TfToTrk converter({}, options());
   converter.take(info(field(0)), 0);
   for (int n = 1; n <= 5; ++n) {
     const auto made = converter.make(pose(field(3 * n)), 0);
@@ -104,7 +101,7 @@ TEST(TfToTrk, CountsUpByOneWithEverySet) {
 }
 
 TEST(TfToTrk, OnlyNewerPosesAreNewUnlessTimeJumpedBack) {
-  TfToTrk converter(parameters());
+  TfToTrk converter({}, options());
   converter.take(info(field(0)), 0);
   EXPECT_TRUE(converter.is_new(field(10)));
   ASSERT_TRUE(converter.make(pose(field(10)), 0).params);
@@ -116,7 +113,7 @@ TEST(TfToTrk, OnlyNewerPosesAreNewUnlessTimeJumpedBack) {
 }
 
 TEST(TfToTrk, NothingWithoutALens) {
-  TfToTrk converter(parameters());
+  TfToTrk converter({}, options());
   EXPECT_FALSE(converter.make(pose(field(0)), 0).params);
   EXPECT_EQ(converter.statistics().outgoing.sets, 0u);
   converter.take(info(field(1)), 0);
@@ -126,7 +123,7 @@ TEST(TfToTrk, NothingWithoutALens) {
 }
 
 TEST(TfToTrk, ALensGoesWithThePoseOfItsStamp) {
-  TfToTrk converter(parameters());
+  TfToTrk converter({}, options());
   for (int n = 0; n < 10; ++n) converter.take(info(field(n), 2000 + 200 * n), 0);
   EXPECT_NEAR(converter.make(pose(field(4)), 0).params->fov, 14, 1e-9);
   EXPECT_NEAR(converter.make(pose(field(6) + ::ros::Duration(0.005)), 0).params->fov, 16, 1e-9) << "the one before it";
@@ -136,7 +133,7 @@ TEST(TfToTrk, ALensGoesWithThePoseOfItsStamp) {
 }
 
 TEST(TfToTrk, ExpectsALensAsLongAsTheyComeWithThePoses) {
-  TfToTrk converter(parameters());
+  TfToTrk converter({}, options());
   EXPECT_TRUE(converter.expects_lens(field(0)));
   converter.take(info(field(0)), 0);
   EXPECT_FALSE(converter.expects_lens(field(0)));
@@ -150,7 +147,7 @@ TEST(TfToTrk, ExpectsALensAsLongAsTheyComeWithThePoses) {
 }
 
 TEST(TfToTrk, FitsOnlyWhatChanged) {
-  TfToTrk converter(parameters());
+  TfToTrk converter({}, options());
   auto m = info(field(0));
   for (int n = 0; n < 10; ++n) {
     m.header.stamp = field(n);
@@ -166,11 +163,12 @@ TEST(TfToTrk, FitsOnlyWhatChanged) {
 }
 
 TEST(TfToTrk, ThePictureOfCameraInfoMakesTheConstants) {
-  auto configured = parameters();
-  configured.blank_left = 20;
-  configured.blank_right = 10;
-  configured.format = "euler ignore_blank keep_aspect";
-  TfToTrk converter(configured);
+  auto configured = options();
+  configured.chip.blank_left = 20;
+  configured.chip.blank_right = 10;
+  OutgoingForm form;
+  form.format = wire::euler | wire::ignore_blank | wire::keep_aspect;
+  TfToTrk converter(form, configured);
   auto m = info(field(0));
   converter.take(m, 0);
   auto made = converter.make(pose(field(0)), 0);
@@ -187,7 +185,7 @@ TEST(TfToTrk, ThePictureOfCameraInfoMakesTheConstants) {
 }
 
 TEST(TfToTrk, FocusAndApertureOfTheLensTopic) {
-  TfToTrk converter(parameters());
+  TfToTrk converter({}, options());
   converter.take(info(field(0)), 0);
   trk_bridge::CameraParams lens;
   lens.focdist = 12;
@@ -204,7 +202,7 @@ TEST(TfToTrk, FocusAndApertureOfTheLensTopic) {
 }
 
 TEST(TfToTrk, TellsWhatTrkCannotTellOfTheLens) {
-  TfToTrk converter(parameters());
+  TfToTrk converter({}, options());
   auto m = info(field(0));
   m.D = {-0.1, 0.01, 0.002, 0, 0};
   m.K[4] = 2010;
@@ -225,7 +223,7 @@ struct Refused {
 class RefusesCameraInfo : public ::testing::TestWithParam<Refused> {};
 
 TEST_P(RefusesCameraInfo, NothingIsSentUntilAnotherComes) {
-  TfToTrk converter(parameters());
+  TfToTrk converter({}, options());
   converter.take(info(field(0)), 0);
   auto bad = info(field(1));
   GetParam().spoil(bad);
@@ -258,7 +256,7 @@ INSTANTIATE_TEST_SUITE_P(One, RefusesCameraInfo, ::testing::ValuesIn(refused_one
                          [](const auto& test) { return test.param.name; });
 
 TEST(TfToTrk, AWholeRegionAndNoModelWithoutCoefficientsAreAccepted) {
-  TfToTrk converter(parameters());
+  TfToTrk converter({}, options());
   auto m = info(field(0));
   m.binning_x = m.binning_y = 1;
   m.roi.width = 1920;

@@ -1,10 +1,11 @@
 #include "ros/trk_to_ros_parameters.h"
 
 #include <cmath>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
-#include "ros/parameter_reader.h"
+#include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {
 namespace {
@@ -12,40 +13,25 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::UnorderedElementsAre;
 using XmlRpc::XmlRpcValue;
 
-CameraParameters camera(const std::string& name, const std::string& source) {
-  CameraParameters c;
-  c.name = name;
-  c.source = source;
-  c.camera_frame = name;
-  c.optical_frame = name + "_optical";
-  return c;
-}
-
-TrkToRosParameters one_camera() {
-  TrkToRosParameters p;
-  p.cameras = {camera("crane1", "udp://:7000")};
-  return p;
-}
-
-TrkToRosParameters two_cameras() {
-  TrkToRosParameters p;
-  p.several = true;
-  p.cameras = {camera("left", "udp://:7000"), camera("right", "udp://:7000")};
-  p.cameras[0].id = 1;
-  p.cameras[1].id = 2;
-  return p;
-}
-
-std::string message_of(const XmlRpcValue& tree) {
+std::string message_of(const XmlRpcValue& tree, const std::string& camera_name = "crane1") {
   try {
-    read_trk_to_ros_parameters(tree, "crane1");
+    read_trk_to_ros_parameters(tree, camera_name);
   } catch (const ParameterError& error) {
     return error.what();
   }
   return "no error";
+}
+
+/// One for every fault.
+std::vector<std::string> lines_of(const XmlRpcValue& tree, const std::string& camera_name = "crane1") {
+  std::istringstream text(message_of(tree, camera_name));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
 }
 
 XmlRpcValue tree_with_source() {
@@ -54,92 +40,175 @@ XmlRpcValue tree_with_source() {
   return tree;
 }
 
-TEST(Validate, AcceptsTheDefaults) {
-  EXPECT_THAT(validate(one_camera()), IsEmpty());
-  EXPECT_THAT(validate(two_cameras()), IsEmpty());
+/// "left" and "right", on one port.
+XmlRpcValue two_cameras() {
+  auto tree = tree_with_source();
+  tree["cameras"]["left"]["id"] = 1;
+  tree["cameras"]["right"]["id"] = 2;
+  return tree;
+}
+
+XmlRpcValue constants() {
+  XmlRpcValue c;
+  c["image_width"] = 1920;
+  c["image_height"] = 1080;
+  c["blank_left"] = 4;
+  c["chip_width"] = 9.59;
+  c["chip_height"] = 5;
+  return c;
+}
+
+XmlRpcValue empty_map() {
+  XmlRpcValue map;
+  map.begin();
+  return map;
 }
 
 struct Wrong {
   const char* name;
-  void (*spoil)(TrkToRosParameters&);
+  void (*spoil)(XmlRpcValue&);
   const char* key_and_value;
   const char* allowed;
 };
 
-class ValidateWrong : public ::testing::TestWithParam<Wrong> {};
+class ReadWrong : public ::testing::TestWithParam<Wrong> {};
 
-TEST_P(ValidateWrong, NamesKeyValueAndWhatIsAllowed) {
-  auto p = one_camera();
-  GetParam().spoil(p);
-  EXPECT_THAT(validate(p), ElementsAre(AllOf(HasSubstr(GetParam().key_and_value), HasSubstr(GetParam().allowed))));
+TEST_P(ReadWrong, NamesKeyValueAndWhatIsAllowed) {
+  auto tree = tree_with_source();
+  GetParam().spoil(tree);
+  EXPECT_THAT(lines_of(tree), ElementsAre(AllOf(HasSubstr(GetParam().key_and_value), HasSubstr(GetParam().allowed))));
 }
 
 const Wrong wrong_ones[] = {
-    {"NoSource", [](TrkToRosParameters& p) { p.cameras[0].source = ""; }, "~source = ''", "must be given"},
-    {"NoPort", [](TrkToRosParameters& p) { p.cameras[0].source = "udp://"; }, "~source = 'udp://'", "port"},
-    {"Scheme", [](TrkToRosParameters& p) { p.cameras[0].source = "tcp://:1"; }, "~source = 'tcp://:1'", "udp"},
-    {"Rate", [](TrkToRosParameters& p) { p.field_rate = 0; }, "~field_rate = 0", "1 to 1000 Hz"},
-    {"RateNan", [](TrkToRosParameters& p) { p.field_rate = std::nan(""); }, "~field_rate = nan", "1 to 1000 Hz"},
-    {"Stamp", [](TrkToRosParameters& p) { p.stamp = "now"; }, "~stamp = 'now'", "arrival"},
-    {"Counter", [](TrkToRosParameters& p) { p.stamp = "counter"; }, "~stamp = 'counter'",
-     "not available in this version"},
-    {"Queue", [](TrkToRosParameters& p) { p.queue_size = 0; }, "~queue_size = 0", "1 to 100000"},
-    {"Delay", [](TrkToRosParameters& p) { p.cameras[0].delay = -0.5; }, "~delay = -0.5", "0 to 60 seconds"},
-    {"Frame", [](TrkToRosParameters& p) { p.cameras[0].studio_frame = "/studio"; }, "~studio_frame = '/studio'",
-     "no leading slash"},
-    {"EmptyFrame", [](TrkToRosParameters& p) { p.cameras[0].camera_frame = ""; }, "~camera_frame = ''", "not empty"},
-    {"SameFrame", [](TrkToRosParameters& p) { p.cameras[0].camera_frame = "studio"; }, "~camera_frame = 'studio'",
-     "must differ"},
-    {"Name", [](TrkToRosParameters& p) { p.cameras[0].name = "1st"; }, "~name = '1st'", "begin with a letter"},
-    {"Format", [](TrkToRosParameters& p) { p.cameras[0].format = "eulr"; }, "~format = 'eulr'", "as_received"},
-    {"Constants", [](TrkToRosParameters& p) { p.cameras[0].constants = wire::CameraConstants{}; }, "~constants",
-     "image"},
+    {"NoSource", [](XmlRpcValue& t) { t["source"] = ""; }, "~source = ''", "must be given"},
+    {"NoPort", [](XmlRpcValue& t) { t["source"] = "udp://"; }, "~source = 'udp://'", "port"},
+    {"Scheme", [](XmlRpcValue& t) { t["source"] = "tcp://:1"; }, "~source = 'tcp://:1'", "udp"},
+    {"Rate", [](XmlRpcValue& t) { t["field_rate"] = 0; }, "~field_rate = 0", "must be 1 to 1000 Hz"},
+    {"RateNan", [](XmlRpcValue& t) { t["field_rate"] = std::nan(""); }, "~field_rate = nan", "1 to 1000 Hz"},
+    {"Stamp", [](XmlRpcValue& t) { t["stamp"] = "counter"; }, "~stamp = 'counter'", "no such parameter"},
+    {"Queue", [](XmlRpcValue& t) { t["queue_size"] = 0; }, "~queue_size = 0", "must be 1 to 100000"},
+    {"Delay", [](XmlRpcValue& t) { t["delay"] = -0.5; }, "~delay = -0.5", "must be 0 to 60 seconds"},
+    {"DelayTooLong", [](XmlRpcValue& t) { t["delay"] = 100; }, "~delay = 100", "must be 0 to 60 seconds"},
+    {"Period", [](XmlRpcValue& t) { t["diagnostic_period"] = 0; }, "~diagnostic_period = 0", "more than 0 seconds"},
+    {"Frame", [](XmlRpcValue& t) { t["studio_frame"] = "/studio"; }, "~studio_frame = '/studio'", "no leading slash"},
+    {"EmptyFrame", [](XmlRpcValue& t) { t["camera_frame"] = ""; }, "~camera_frame = ''", "not empty"},
+    {"SameFrame", [](XmlRpcValue& t) { t["camera_frame"] = "studio"; }, "~camera_frame = 'studio'", "must differ"},
+    {"SameOptical", [](XmlRpcValue& t) { t["optical_frame"] = "crane1"; }, "~optical_frame = 'crane1'", "must differ"},
+    {"Format", [](XmlRpcValue& t) { t["format"] = "eulr"; }, "~format = 'eulr'", "as_received"},
+    {"Constants",
+     [](XmlRpcValue& t) {
+       t["constants"] = constants();
+       t["constants"]["image_width"] = 0;
+     },
+     "~constants", "image"},
     {"MarkersOfNoLens",
-     [](TrkToRosParameters& p) {
-       p.cameras[0].publish_markers = true;
-       p.cameras[0].publish_camera_info = false;
+     [](XmlRpcValue& t) {
+       t["publish_markers"] = true;
+       t["publish_camera_info"] = false;
      },
      "~publish_markers = true", "needs publish_camera_info"},
-    {"MarkerFarIsNear", [](TrkToRosParameters& p) { p.cameras[0].marker_far = 0.2; }, "~marker_far = 0.2",
-     "more than 0.2 (where the frustum begins) and at most 1000 metres"},
-    {"MarkerFarTooFar", [](TrkToRosParameters& p) { p.cameras[0].marker_far = 1001; }, "~marker_far = 1001",
+    {"MarkerFarIsNear", [](XmlRpcValue& t) { t["marker_far"] = 0.2; }, "~marker_far = 0.2",
+     "must be more than 0.2 and at most 1000 metres (the frustum begins at the lower bound)"},
+    {"MarkerFarTooFar", [](XmlRpcValue& t) { t["marker_far"] = 1001; }, "~marker_far = 1001", "at most 1000 metres"},
+    {"MarkerFarNan", [](XmlRpcValue& t) { t["marker_far"] = std::nan(""); }, "~marker_far = nan",
      "at most 1000 metres"},
-    {"MarkerFarNan", [](TrkToRosParameters& p) { p.cameras[0].marker_far = std::nan(""); }, "~marker_far = nan",
-     "at most 1000 metres"},
-    {"NoCameras", [](TrkToRosParameters& p) { p.cameras.clear(); }, "~cameras = {}", "at least one"},
+    {"NoCameras", [](XmlRpcValue& t) { t["cameras"] = empty_map(); }, "~cameras = {}", "at least one"},
 };
-INSTANTIATE_TEST_SUITE_P(One, ValidateWrong, ::testing::ValuesIn(wrong_ones),
+INSTANTIATE_TEST_SUITE_P(One, ReadWrong, ::testing::ValuesIn(wrong_ones),
                          [](const auto& test) { return test.param.name; });
 
-TEST(Validate, CamerasOnOneSourceMustSayDifferentIds) {
-  auto p = two_cameras();
-  p.cameras[1].id = 1;
-  EXPECT_THAT(validate(p), ElementsAre(AllOf(HasSubstr("~cameras/right/id = 1"), HasSubstr("left's"))));
-  p.cameras[1].id.reset();
-  EXPECT_THAT(validate(p), ElementsAre(AllOf(HasSubstr("each must say its id"), HasSubstr("camera right does not"))));
-  p.cameras[1].source = "udp://:7001";
-  EXPECT_THAT(validate(p), IsEmpty()) << "alone on its source it needs none";
+TEST(Read, ACameraIsCalledSoThatTopicsAndFramesCanBe) {
+  EXPECT_THAT(lines_of(tree_with_source(), "1st"),
+              ElementsAre(AllOf(HasSubstr("~name = '1st'"), HasSubstr("begin with a letter"))));
+  auto tree = two_cameras();
+  tree["cameras"]["on the left"]["id"] = 3;
+  EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~cameras/on the left/name = 'on the left'")));
 }
 
-TEST(Validate, OnePortHasOneUrl) {
-  auto p = two_cameras();
-  p.cameras[1].source = "udp://:7000?layout=identified";
-  EXPECT_THAT(validate(p), ElementsAre(AllOf(HasSubstr("~cameras/right/source"), HasSubstr("very same URL"))));
+TEST(Read, CamerasOnOneSourceMustSayDifferentIds) {
+  auto tree = two_cameras();
+  tree["cameras"]["right"]["id"] = 1;
+  EXPECT_THAT(lines_of(tree), ElementsAre(AllOf(HasSubstr("~cameras/right/id = 1"), HasSubstr("left's"))));
+  tree["cameras"]["right"] = empty_map();
+  EXPECT_THAT(lines_of(tree),
+              ElementsAre(AllOf(HasSubstr("each must say its id"), HasSubstr("camera right does not"))));
+  tree["cameras"]["right"]["source"] = "udp://:7001";
+  EXPECT_EQ(message_of(tree), "no error") << "alone on its source it needs none";
 }
 
-TEST(Validate, AFrameHasOneParent) {
-  auto p = two_cameras();
-  p.cameras[1].camera_frame = "left";
-  EXPECT_THAT(validate(p),
+TEST(Read, OnePortHasOneUrl) {
+  auto tree = two_cameras();
+  tree["cameras"]["right"]["source"] = "udp://:7000?layout=identified";
+  EXPECT_THAT(lines_of(tree), ElementsAre(AllOf(HasSubstr("~cameras/right/source"), HasSubstr("very same URL"))));
+}
+
+TEST(Read, AFrameHasOneParent) {
+  auto tree = two_cameras();
+  tree["cameras"]["right"]["camera_frame"] = "left";
+  EXPECT_THAT(lines_of(tree),
               ElementsAre(AllOf(HasSubstr("~cameras/right/camera_frame = 'left'"), HasSubstr("one parent"))));
 }
 
-TEST(Validate, TellsEveryFaultAtOnce) {
-  auto p = one_camera();
-  p.field_rate = -1;
-  p.queue_size = -1;
-  p.cameras[0].delay = 100;
-  EXPECT_EQ(validate(p).size(), 3u);
+TEST(Read, EveryKindOfFaultIsShownAtOnce) {
+  auto tree = two_cameras();
+  tree["field_rate"] = "fast";
+  tree["delay"] = 100;
+  tree["queuesize"] = 10;
+  tree["constants"]["image_width"] = 1920.5;
+  tree["cameras"]["left"]["publish_camera_info"] = false;
+  tree["cameras"]["left"]["publish_markers"] = true;
+  tree["cameras"]["right"]["id"] = 1;
+  EXPECT_THAT(lines_of(tree),
+              UnorderedElementsAre(HasSubstr("~field_rate = 'fast': must be a number"),
+                                   HasSubstr("~delay = 100: must be 0 to 60 seconds"),
+                                   HasSubstr("~queuesize = 10: no such parameter, nearest is queue_size"),
+                                   HasSubstr("~constants/image_width = 1920.5: must be an integer"),
+                                   HasSubstr("~constants/image_height: must be given"),
+                                   HasSubstr("~constants/chip_width: must be given"),
+                                   HasSubstr("~constants/chip_height: must be given"),
+                                   HasSubstr("~cameras/left/publish_markers = true: needs publish_camera_info"),
+                                   HasSubstr("~cameras/right/id = 1: is camera left's, too")));
+}
+
+TEST(Read, ARuleIsNotJudgedOnFaultyInput) {
+  auto tree = tree_with_source();
+  tree["publish_markers"] = true;
+  tree["publish_camera_info"] = "no";
+  EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~publish_camera_info = 'no': must be true or false")));
+
+  tree = tree_with_source();
+  tree["studio_frame"] = 3;
+  tree["camera_frame"] = "studio";
+  EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~studio_frame = 3: must be text")))
+      << "nobody wrote that the studio frame is studio";
+
+  tree = two_cameras();
+  tree["cameras"]["left"]["id"] = -1;
+  EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~cameras/left/id = -1: must be 0 or more")));
+
+  tree = two_cameras();
+  tree["cameras"]["right"]["source"] = "udp://";
+  tree["cameras"]["right"]["id"] = 1;
+  EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~cameras/right/source = 'udp://'")));
+}
+
+TEST(Read, WhatIsWrongForAllCamerasIsShownOnce) {
+  auto tree = two_cameras();
+  tree["source"] = "udp://";
+  tree["studio_frame"] = "/left";
+  tree["cameras"]["left"]["publish_markers"] = true;
+  tree["publish_camera_info"] = 0;
+  EXPECT_THAT(lines_of(tree),
+              UnorderedElementsAre(HasSubstr("~source = 'udp://'"), HasSubstr("~studio_frame = '/left'"),
+                                   HasSubstr("~publish_camera_info = 0: must be true or false")));
+}
+
+TEST(Read, UsersAreNotOfferedTheQueueOfTests) {
+  auto tree = tree_with_source();
+  for (const char* url : {"tcp://:1", "7000", ""}) {
+    tree["source"] = url;
+    EXPECT_THAT(message_of(tree), AllOf(HasSubstr("shm"), Not(HasSubstr("memory")))) << url;
+  }
 }
 
 TEST(Read, DefaultsNameTheCameraAndItsFrames) {
@@ -150,12 +219,15 @@ TEST(Read, DefaultsNameTheCameraAndItsFrames) {
   EXPECT_EQ(p.queue_size, 100);
   const auto& c = p.cameras[0];
   EXPECT_EQ(c.name, "crane1");
-  EXPECT_EQ(c.studio_frame, "studio");
-  EXPECT_EQ(c.camera_frame, "crane1");
-  EXPECT_EQ(c.optical_frame, "crane1_optical");
-  EXPECT_EQ(c.format, "euler");
-  EXPECT_FALSE(c.id);
-  EXPECT_TRUE(c.publish_tf && c.publish_camera_info);
+  EXPECT_EQ(c.frames.studio, "studio");
+  EXPECT_EQ(c.frames.camera, "crane1");
+  EXPECT_EQ(c.frames.optical, "crane1_optical");
+  EXPECT_EQ(c.source->url, "udp://:7000");
+  EXPECT_EQ(std::get<endpoints::UdpEndpoint>(c.source->endpoint).port, 7000);
+  EXPECT_EQ(c.options.format, std::uint32_t{wire::euler});
+  EXPECT_FALSE(c.options.id || c.options.constants);
+  EXPECT_EQ(c.options.delay, 0);
+  EXPECT_TRUE(c.options.publish_tf && c.options.publish_camera_info);
   EXPECT_FALSE(c.publish_markers);
   EXPECT_EQ(c.marker_far, 3);
 }
@@ -173,14 +245,22 @@ TEST(Read, CamerasInheritFromTheNodeAndMayDiffer) {
   ASSERT_EQ(p.cameras.size(), 3u);
   EXPECT_TRUE(p.several);
   EXPECT_EQ(p.cameras[0].name, "left");
-  EXPECT_EQ(p.cameras[0].source, "udp://:7000");
-  EXPECT_EQ(p.cameras[0].studio_frame, "stage");
-  EXPECT_EQ(p.cameras[0].delay, 1.0);
-  EXPECT_EQ(p.cameras[1].delay, 0.25);
-  EXPECT_EQ(p.cameras[2].source, "shm:7");
-  EXPECT_EQ(p.cameras[2].camera_frame, "jib");
-  EXPECT_EQ(p.cameras[2].optical_frame, "top_optical");
-  EXPECT_EQ(p.cameras[2].studio_frame, "stage");
+  EXPECT_EQ(p.cameras[0].source->url, "udp://:7000");
+  EXPECT_EQ(p.cameras[0].frames.studio, "stage");
+  EXPECT_EQ(p.cameras[0].options.delay, 1.0);
+  EXPECT_EQ(p.cameras[1].options.delay, 0.25);
+  EXPECT_EQ(p.cameras[2].source->url, "shm:7");
+  EXPECT_EQ(p.cameras[2].frames.camera, "jib");
+  EXPECT_EQ(p.cameras[2].frames.optical, "top_optical");
+  EXPECT_EQ(p.cameras[2].frames.studio, "stage");
+}
+
+TEST(Read, FormatsAreKeptAsMasks) {
+  auto tree = tree_with_source();
+  tree["format"] = "euler studio_y_up";
+  EXPECT_EQ(read_trk_to_ros_parameters(tree, "c").cameras[0].options.format, wire::euler | wire::studio_y_up);
+  tree["format"] = as_received;
+  EXPECT_FALSE(read_trk_to_ros_parameters(tree, "c").cameras[0].options.format);
 }
 
 TEST(Read, MarkersOfAllCamerasButOne) {
@@ -198,15 +278,10 @@ TEST(Read, MarkersOfAllCamerasButOne) {
 
 TEST(Read, ConstantsByName) {
   auto tree = tree_with_source();
-  auto& c = tree["constants"];
-  c["image_width"] = 1920;
-  c["image_height"] = 1080;
-  c["blank_left"] = 4;
-  c["chip_width"] = 9.59;
-  c["chip_height"] = 5;
+  tree["constants"] = constants();
   const auto p = read_trk_to_ros_parameters(tree, "crane1");
-  ASSERT_TRUE(p.cameras[0].constants);
-  EXPECT_EQ(*p.cameras[0].constants, (wire::CameraConstants{0, 1920, 1080, 4, 0, 0, 0, 9.59, 5, 0, 0}));
+  ASSERT_TRUE(p.cameras[0].options.constants);
+  EXPECT_EQ(*p.cameras[0].options.constants, (wire::CameraConstants{0, 1920, 1080, 4, 0, 0, 0, 9.59, 5, 0, 0}));
 }
 
 TEST(Read, ConstantsMustBeEnoughAndKnown) {

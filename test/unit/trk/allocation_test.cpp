@@ -25,7 +25,7 @@ std::atomic<std::uint64_t> allocations{0};
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace trk_bridge::transport {
+namespace trk_bridge::trk {
 namespace {
 
 void expect_no_allocation(const std::string& options) {
@@ -64,4 +64,4 @@ TEST(Allocation, IsSeenByThisTest) {
 }
 
 }  // namespace
-}  // namespace trk_bridge::transport
+}  // namespace trk_bridge::trk

@@ -1,0 +1,31 @@
+// What is to be made of one camera's records.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "trk_bridge/wire/format.h"
+#include "trk_bridge/wire/record.h"
+
+namespace trk_bridge::ros1 {
+
+struct CameraOptions {
+  /// None: records of every id are this camera's; then its source must serve this camera alone.
+  std::optional<std::uint32_t> id;
+  /// FormatBit mask of published parameters; none: they stay in the sender's format.
+  std::optional<std::uint32_t> format = wire::euler;
+  double delay = 0;                                ///< s, taken off every stamp
+  std::optional<wire::CameraConstants> constants;  ///< until the sender's own ones come
+  bool publish_tf = true;
+  bool publish_camera_info = true;
+};
+
+/// Frames of a camera in tf. They must differ.
+struct CameraFrames {
+  std::string studio = "studio";
+  std::string camera;   ///< x right, y forward, z up
+  std::string optical;  ///< x right, y down, z forward (REP 103): a static child of `camera`
+};
+
+}  // namespace trk_bridge::ros1

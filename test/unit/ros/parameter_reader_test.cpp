@@ -1,0 +1,133 @@
+#include "ros/parameter_reader.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+namespace trk_bridge::ros1 {
+namespace {
+
+using ::testing::ElementsAre;
+using XmlRpc::XmlRpcValue;
+
+std::string end_of(ParameterReader& reader) {
+  try {
+    reader.finish();
+  } catch (const ParameterError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+tl::expected<std::size_t, std::string> parse_length(const std::string& text) {
+  if (text.empty()) return tl::make_unexpected(std::string("must not be empty"));
+  return text.size();
+}
+
+TEST(Ranges, SayWhatTheyAllow) {
+  EXPECT_EQ((Range{0, 60, "seconds"}).text(), "0 to 60 seconds");
+  EXPECT_EQ((Range{1, 100000}).text(), "1 to 100000");
+  EXPECT_EQ(at_least(0).text(), "0 or more");
+  EXPECT_EQ(at_least(0, "pixels").text(), "0 or more pixels");
+  EXPECT_EQ(more_than(0, "mm").text(), "more than 0 mm");
+  EXPECT_EQ(more_than(0.2, "metres", 1000).text(), "more than 0.2 and at most 1000 metres");
+  EXPECT_EQ(Range{}.text(), "finite");
+}
+
+TEST(Ranges, HaveTheirEndsAndNothingInfinite) {
+  const Range range{0, 60, "seconds"};
+  EXPECT_TRUE(range.contains(0) && range.contains(60));
+  EXPECT_FALSE(range.contains(-1e-9) || range.contains(60.001));
+  EXPECT_FALSE(more_than(0, "mm").contains(0));
+  for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL}) EXPECT_FALSE(Range{}.contains(value)) << value;
+}
+
+TEST(ParameterReader, WhatIsNotGivenOrFaultyKeepsItsDefault) {
+  XmlRpcValue tree;
+  tree["number"] = "one";
+  tree["integer"] = 11;
+  tree["choice"] = "c";
+  tree["parsed"] = "";
+  tree["list"][0] = "abc";
+  tree["list"][1] = "";
+  ParameterReader reader(tree);
+  double number = 1, other = 2;
+  int integer = 3;
+  char choice = 'a';
+  std::size_t parsed = 5;
+  std::vector<std::size_t> list{6};
+  EXPECT_FALSE(reader.number("number", number));
+  EXPECT_FALSE(reader.number("other", other));
+  EXPECT_FALSE(reader.integer("integer", integer, {1, 10}));
+  EXPECT_FALSE(reader.choice("choice", choice, {{"a", 'a'}, {"b", 'b'}}));
+  EXPECT_FALSE(reader.parsed("parsed", parsed, parse_length));
+  EXPECT_FALSE(reader.parsed_list("list", list, parse_length));
+  EXPECT_EQ(number, 1);
+  EXPECT_EQ(other, 2);
+  EXPECT_EQ(integer, 3);
+  EXPECT_EQ(choice, 'a');
+  EXPECT_EQ(parsed, 5u);
+  EXPECT_THAT(list, ElementsAre(6));
+  EXPECT_TRUE(reader.are_sound({"other"}));
+  for (const char* key : {"number", "integer", "choice", "parsed", "list"}) {
+    EXPECT_FALSE(reader.are_sound({"other", key})) << key;
+  }
+  EXPECT_EQ(end_of(reader),
+            "~number = 'one': must be a number\n"
+            "~integer = 11: must be 1 to 10\n"
+            "~choice = 'c': must be a or b\n"
+            "~parsed = '': must not be empty\n"
+            "~list = '': must not be empty");
+}
+
+TEST(ParameterReader, WhatIsSoundIsKeptParsed) {
+  XmlRpcValue tree;
+  tree["number"] = 7;
+  tree["flag"] = true;
+  tree["choice"] = "b";
+  tree["parsed"] = "abc";
+  tree["list"] = "abcd";
+  ParameterReader reader(tree);
+  double number = 1;
+  bool flag = false;
+  char choice = 'a';
+  std::size_t parsed = 5;
+  std::vector<std::size_t> list;
+  EXPECT_TRUE(reader.number("number", number));
+  EXPECT_TRUE(reader.flag("flag", flag));
+  EXPECT_TRUE(reader.choice("choice", choice, {{"a", 'a'}, {"b", 'b'}}));
+  EXPECT_TRUE(reader.parsed("parsed", parsed, parse_length));
+  EXPECT_TRUE(reader.parsed_list("list", list, parse_length));
+  EXPECT_EQ(number, 7);
+  EXPECT_TRUE(flag);
+  EXPECT_EQ(choice, 'b');
+  EXPECT_EQ(parsed, 3u);
+  EXPECT_THAT(list, ElementsAre(4));
+  EXPECT_EQ(end_of(reader), "no error");
+}
+
+TEST(ParameterReader, AMapInheritsSoundnessAndAddsItsFaults) {
+  XmlRpcValue tree;
+  tree["rate"] = "fast";
+  tree["slow"]["rate"] = 1;
+  tree["other"]["rat"] = 1;
+  ParameterReader node(tree);
+  double rate = 50;
+  node.number("rate", rate);
+  auto slow = node.map("slow"), other = node.map("other");
+  ASSERT_TRUE(slow && other);
+  slow->inherit(node);
+  other->inherit(node);
+  EXPECT_TRUE(slow->number("rate", rate));
+  EXPECT_FALSE(other->number("rate", rate));
+  EXPECT_TRUE(slow->are_sound({"rate"}));
+  EXPECT_FALSE(other->are_sound({"rate"})) << "its rate is the node's, which is wrong";
+  slow->refuse_unknown();
+  other->refuse_unknown();
+  EXPECT_EQ(end_of(node),
+            "~rate = 'fast': must be a number\n"
+            "~other/rat = 1: no such parameter, nearest is rate; known are rate");
+}
+
+}  // namespace
+}  // namespace trk_bridge::ros1
