@@ -73,13 +73,13 @@ void distort(benchmark::State& state) {
 }
 BENCHMARK(distort);
 
-void lens_of(benchmark::State& state) {
+void fit_lens(benchmark::State& state) {
   camera::Calibrator calibrator;
   const auto calibration = calibrator.calibrate(strong, constants).value();
   const std::vector<double> d(calibration.distortion.d.begin(), calibration.distortion.d.end());
-  for (auto _ : state) benchmark::DoNotOptimize(camera::lens_of(calibration.k, d, constants));
+  for (auto _ : state) benchmark::DoNotOptimize(camera::fit_lens(calibration.k, d, constants));
 }
-BENCHMARK(lens_of);
+BENCHMARK(fit_lens);
 
 void image_border(benchmark::State& state, double tangential) {
   camera::Calibrator calibrator;

@@ -86,7 +86,7 @@ double there_and_back(const Lens& lens) {
   camera::Calibrator calibrator;
   const auto there = calibrator.calibrate(lens, hd);
   const auto& d = or_exit(there).distortion.d;
-  const auto back = camera::lens_of(there->k, std::vector<double>(d.begin(), d.end()), hd);
+  const auto back = camera::fit_lens(there->k, std::vector<double>(d.begin(), d.end()), hd);
   const camera::Raster raster = camera::raster_of(hd);
   double worst = 0;
   for (int i = 1; i <= 400; ++i) {
@@ -124,7 +124,7 @@ void print_back() {
     const double k1 = (ratio - 1) / (radius * radius);
     const std::array<double, 9> k = {
         raster.mx * image_distance, 0, 959.5, 0, raster.my * image_distance, 539.5, 0, 0, 1};
-    const auto back = camera::lens_of(k, {k1, 0, 0, 0, 0}, hd);
+    const auto back = camera::fit_lens(k, {k1, 0, 0, 0, 0}, hd);
     std::printf("%.2f,%.4f,%.6f\n", ratio, k1, or_exit(back).residual);
   }
 }

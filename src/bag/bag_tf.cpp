@@ -152,7 +152,7 @@ class Lenses {
     if (!fitted_ || k != k_ || info.D != d_) {
       k_ = k;
       d_ = info.D;
-      fitted_ = camera::lens_of(k_, d_, constants_);
+      fitted_ = camera::fit_lens(k_, d_, constants_);
       note();
     }
     if (!*fitted_) return tl::unexpected(camera::describe(fitted_->error()));

@@ -13,7 +13,7 @@
 
 namespace trk_bridge::camera {
 
-/// A CameraInfo's lens: K row after row, D (0, 4, 5 or 8 coefficients, see lens_of) and the size of the whole image in
+/// A CameraInfo's lens: K row after row, D (0, 4, 5 or 8 coefficients, see fit_lens) and the size of the whole image in
 /// pixels.
 struct ViewingLens {
   std::array<double, 9> k{};

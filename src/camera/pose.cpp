@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/SVD>
+#include <Eigen/LU>
 
 #include "degrees.h"
 #include "trk_bridge/wire/codec.h"
@@ -55,9 +55,15 @@ Eigen::Matrix3d axes(bool y_up) noexcept {
   return a;
 }
 
+/// The rotation next to what is one to 1e-3, by Newton's iteration for the polar decomposition. Each step squares the
+/// error and halves it.
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& m) noexcept {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  constexpr int steps_from_1e_3_to_the_last_digit = 3;
+  Eigen::Matrix3d rotation = m;
+  for (int i = 0; i < steps_from_1e_3_to_the_last_digit; ++i) {
+    rotation = (0.5 * (rotation + rotation.inverse().transpose())).eval();
+  }
+  return rotation;
 }
 
 Eigen::Isometry3d isometry(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) noexcept {

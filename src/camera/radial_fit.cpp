@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/QR>
-
+#include "least_squares.h"
 #include "trk_bridge/camera/image.h"
 
 namespace trk_bridge::camera {
@@ -15,22 +14,15 @@ constexpr int node_count = 48;
 constexpr int probe_count = 400;
 constexpr int reweightings = 3;
 
-using Nodes = Eigen::Array<double, node_count, 1>;
-using PolynomialTerms = Eigen::Matrix<double, node_count, 3>;
-
 /// What is fitted.
 struct Curve {
   double a1, a2, reach;
 
-  template <typename Radius>
-  Radius undistorted(const Radius& distorted) const {
-    const Radius squared = distorted * distorted;
+  double undistorted(double distorted) const noexcept {
+    const double squared = distorted * distorted;
     return distorted * (1 + squared * (a1 + squared * a2));
   }
 };
-
-/// Radii in the manner of Chebyshev, which spreads a least squares error evenly over the range.
-Nodes chebyshev_radii() noexcept { return ((Nodes::LinSpaced(1, node_count) - 0.5) * (M_PI_2 / node_count)).sin(); }
 
 double residual_of(const Curve& curve, const RadialModel& model) noexcept {
   double worst = 0;
@@ -43,46 +35,52 @@ double residual_of(const Curve& curve, const RadialModel& model) noexcept {
   return worst;
 }
 
-struct Samples {
-  Nodes undistorted, ratio;
-  PolynomialTerms powers;  ///< s, s^2, s^3
+struct Sample {
+  double undistorted, ratio;
 };
+using Samples = std::array<Sample, node_count>;
 
+/// At radii in the manner of Chebyshev, which spreads a least squares error evenly over the range.
 Samples sample(const Curve& curve) noexcept {
-  const Nodes distorted = curve.reach * chebyshev_radii();
   Samples samples;
-  samples.undistorted = curve.undistorted(distorted);
-  samples.ratio = distorted / samples.undistorted;
-  const Nodes s = samples.undistorted.square();
-  samples.powers << s, s.square(), s.cube();
+  for (int i = 0; i < node_count; ++i) {
+    const double distorted = curve.reach * std::sin((i + 0.5) * (M_PI_2 / node_count));
+    const double undistorted = curve.undistorted(distorted);
+    samples[static_cast<std::size_t>(i)] = {undistorted, distorted / undistorted};
+  }
   return samples;
 }
 
-RadialModel fit_polynomial(const Samples& samples) noexcept {
-  const auto weight = samples.undistorted.matrix().asDiagonal();
-  const PolynomialTerms terms = weight * samples.powers;
-  const Eigen::Matrix<double, node_count, 1> wanted = weight * (samples.ratio - 1).matrix();
-  const Eigen::Vector3d k = terms.colPivHouseholderQr().solve(wanted);
-  return {{k[0], k[1], k[2], 0, 0, 0}};
+/// One fit with `above` and `below` coefficients, every sample weighted by its radius over the denominator of
+/// `weights`.
+RadialModel fit_weighted(const Samples& samples, int above, int below, const RadialModel& weights) noexcept {
+  Terms terms(node_count, above + below);
+  Values wanted(node_count);
+  for (int i = 0; i < node_count; ++i) {
+    const auto [undistorted, ratio] = samples[static_cast<std::size_t>(i)];
+    const double s = undistorted * undistorted;
+    const double weight = undistorted / weights.denominator(s);
+    wanted[i] = weight * (ratio - 1);
+    double power = weight;
+    for (int j = 0; j < std::max(above, below); ++j) {
+      power *= s;
+      if (j < above) terms(i, j) = power;
+      if (j < below) terms(i, above + j) = -ratio * power;
+    }
+  }
+  const Unknowns k = least_squares(terms, wanted);
+  RadialModel model;
+  std::copy_n(k.data(), above, model.k.begin());
+  std::copy_n(k.data() + above, below, model.k.begin() + 3);
+  return model;
 }
 
+RadialModel fit_polynomial(const Samples& samples) noexcept { return fit_weighted(samples, 3, 0, {}); }
+
 /// Linear in the coefficients once multiplied by the denominator, whose last value undoes the weight that this gives.
-/// `above` and `below` are the numbers of coefficients.
-template <int above, int below>
-RadialModel fit_rational(const Samples& samples) noexcept {
+RadialModel fit_rational(const Samples& samples, int above, int below) noexcept {
   RadialModel model;
-  Nodes weight = samples.undistorted;
-  for (int i = 0; i < reweightings; ++i) {
-    Eigen::Matrix<double, node_count, above + below> terms;
-    terms << samples.powers.leftCols<above>(),
-        -(samples.ratio.matrix().asDiagonal() * samples.powers.leftCols<below>());
-    terms = (weight.matrix().asDiagonal() * terms).eval();
-    const Eigen::Matrix<double, node_count, 1> wanted = (weight * (samples.ratio - 1)).matrix();
-    const Eigen::Matrix<double, above + below, 1> k = terms.completeOrthogonalDecomposition().solve(wanted);
-    std::copy_n(k.data(), above, model.k.begin());
-    std::copy_n(k.data() + above, below, model.k.begin() + 3);
-    weight = samples.undistorted / (1 + (samples.powers.leftCols<below>() * k.template tail<below>()).array());
-  }
+  for (int i = 0; i < reweightings; ++i) model = fit_weighted(samples, above, below, model);
   return model;
 }
 
@@ -106,12 +104,12 @@ bool take_if_better(const Curve& curve, const RadialModel& radial, double range,
 }
 
 void improve_by_rationals(const Curve& curve, const Samples& samples, double tolerance, RadialFit& best) noexcept {
-  const RadialModel full = fit_rational<3, 3>(samples);
+  const RadialModel full = fit_rational(samples, 3, 3);
   const double range = wanted_range(curve);
   if (take_if_better(curve, full, range, best)) return;
   // Where six coefficients are more than the curve asks for, they spend the rest on a pole next to a zero.
-  const std::array<RadialModel, 3> lesser = {fit_rational<3, 2>(samples), fit_rational<2, 3>(samples),
-                                             fit_rational<2, 2>(samples)};
+  const std::array<RadialModel, 3> lesser = {fit_rational(samples, 3, 2), fit_rational(samples, 2, 3),
+                                             fit_rational(samples, 2, 2)};
   for (const RadialModel& radial : lesser) take_if_better(curve, radial, range, best);
   if (best.residual <= tolerance || take_if_better(curve, full, 1, best)) return;
   for (const RadialModel& radial : lesser) take_if_better(curve, radial, 1, best);
@@ -119,10 +117,12 @@ void improve_by_rationals(const Curve& curve, const Samples& samples, double tol
 
 }  // namespace
 
+double RadialModel::denominator(double s) const noexcept { return 1 + s * (k[3] + s * (k[4] + s * k[5])); }
+
 ValueAndSlope RadialModel::distorted(double r) const noexcept {
   const double s = r * r;
   const double above = 1 + s * (k[0] + s * (k[1] + s * k[2]));
-  const double below = 1 + s * (k[3] + s * (k[4] + s * k[5]));
+  const double below = denominator(s);
   const double above_slope = k[0] + s * (2 * k[1] + s * 3 * k[2]);
   const double below_slope = k[3] + s * (2 * k[4] + s * 3 * k[5]);
   const double ratio = above / below;
@@ -130,15 +130,14 @@ ValueAndSlope RadialModel::distorted(double r) const noexcept {
 }
 
 bool RadialModel::has_no_pole(double r) const noexcept {
-  const auto below = [this](double s) { return 1 + s * (k[3] + s * (k[4] + s * k[5])); };
   const double end = r * r;
-  if (!(below(end) > 0)) return false;
+  if (!(denominator(end) > 0)) return false;
   // The smallest value is at an end or where 3 k6 s^2 + 2 k5 s + k4 = 0.
   const double discriminant = k[4] * k[4] - 3 * k[5] * k[3];
   if (!(discriminant >= 0)) return true;
   const double q = -(k[4] + std::copysign(std::sqrt(discriminant), k[4]));
   for (const double s : {q / (3 * k[5]), k[3] / q}) {
-    if (s > 0 && s < end && !(below(s) > 0)) return false;
+    if (s > 0 && s < end && !(denominator(s) > 0)) return false;
   }
   return true;
 }

@@ -14,6 +14,7 @@ namespace trk_bridge::camera {
 struct RadialModel {
   std::array<double, 6> k{};
 
+  double denominator(double s) const noexcept;
   /// The distorted radius and its slope at undistorted radius r.
   ValueAndSlope distorted(double r) const noexcept;
   /// Whether the denominator stays positive for radii up to r.

@@ -74,7 +74,7 @@ tl::expected<camera::FittedLens, InfoFault> lens_of(const sensor_msgs::CameraInf
   auto constants = chip;
   constants.image_width = static_cast<std::int32_t>(info.width);
   constants.image_height = static_cast<std::int32_t>(info.height);
-  const auto lens = camera::lens_of(matrix_of(info), info.D, constants);
+  const auto lens = camera::fit_lens(matrix_of(info), info.D, constants);
   if (!lens) return tl::unexpected(InfoFault{InfoReason::no_lens, lens.error()});
   return *lens;
 }

@@ -78,7 +78,7 @@ struct FittedLens {
 /// distance is that of fx. `d` has 0, 4, 5 or 8 coefficients (plumb_bob without k3, plumb_bob, rational_polynomial).
 /// Errors are bad_constants, bad_calibration, and not_monotonic where D, or k1 and k2 fitted to it, fold within the
 /// image. Takes about a tenth of a millisecond: keep the result while K and D stay.
-[[nodiscard]] Result<FittedLens> lens_of(const std::array<double, 9>& k, const std::vector<double>& d,
+[[nodiscard]] Result<FittedLens> fit_lens(const std::array<double, 9>& k, const std::vector<double>& d,
                                          const wire::CameraConstants& constants) noexcept;
 
 }  // namespace trk_bridge::camera

@@ -217,7 +217,7 @@ TEST(LensOf, GivesBackTheLensThatWasPublished) {
       Calibrator calibrator;
       const auto calibration = calibrator.calibrate(lens, constants);
       ASSERT_TRUE(calibration) << describe(calibration.error());
-      const auto back = lens_of(calibration->k, published(calibration->distortion), constants);
+      const auto back = fit_lens(calibration->k, published(calibration->distortion), constants);
       ASSERT_TRUE(back) << describe(back.error());
       EXPECT_NEAR(back->lens.image_distance, lens.image_distance, 1e-9);
       EXPECT_LE((back->lens.center_shift - lens.center_shift).norm(), 1e-9);
@@ -242,16 +242,16 @@ TEST(LensOf, GivesBackTheLensThatWasPublished) {
 
 TEST(LensOf, ReadsEveryLengthOfD) {
   const std::array<double, 9> k = {1600, 0, 959.5, 0, 1600 * (1080 / 5.39) / (1920 / 9.59), 539.5, 0, 0, 1};
-  const auto none = lens_of(k, {}, hd);
+  const auto none = fit_lens(k, {}, hd);
   ASSERT_TRUE(none);
   EXPECT_EQ(none->lens.k1, 0);
   EXPECT_EQ(none->lens.k2, 0);
   EXPECT_EQ(none->residual, 0);
   EXPECT_NEAR(none->lens.image_distance, 1600 * 9.59 / 1920, 1e-12);
   EXPECT_LE(none->lens.center_shift.norm(), 1e-12);
-  const auto four = lens_of(k, {-0.1, 0.02, 0, 0}, hd);
-  const auto five = lens_of(k, {-0.1, 0.02, 0, 0, 0}, hd);
-  const auto eight = lens_of(k, {-0.1, 0.02, 0, 0, 0, 0, 0, 0}, hd);
+  const auto four = fit_lens(k, {-0.1, 0.02, 0, 0}, hd);
+  const auto five = fit_lens(k, {-0.1, 0.02, 0, 0, 0}, hd);
+  const auto eight = fit_lens(k, {-0.1, 0.02, 0, 0, 0, 0, 0, 0}, hd);
   ASSERT_TRUE(four && five && eight);
   EXPECT_GT(four->lens.k1, 0) << "barrel one way is pincushion the other";
   EXPECT_EQ(four->lens.k1, five->lens.k1);
@@ -262,7 +262,7 @@ TEST(LensOf, ReadsEveryLengthOfD) {
 TEST(LensOf, TellsItsResidualHonestly) {
   const std::array<double, 9> k = {1600, 0, 959.5, 0, 1600 * (1080 / 5.39) / (1920 / 9.59), 539.5, 0, 0, 1};
   const Distortion told{DistortionModel::rational_polynomial, {-0.3, 0.1, 0, 0, -0.02, 0.05, -0.01, 0.003}, 0};
-  const auto fitted = lens_of(k, published(told), hd);
+  const auto fitted = fit_lens(k, published(told), hd);
   ASSERT_TRUE(fitted) << describe(fitted.error());
   EXPECT_GT(fitted->residual, 1e-3);
   EXPECT_NEAR(measured_residual(fitted->lens, hd, told), fitted->residual, 0.1 * fitted->residual);
@@ -272,11 +272,11 @@ TEST(LensOf, SaysHowMuchIsLost) {
   // Without radial terms p2 moves a point in the corner by 3 p2 x^2 + p2 y^2 across and 2 p2 xy down.
   const std::array<double, 9> k = {1000, 0, 499.5, 0, 1000, 499.5, 0, 0, 1};
   const CameraConstants square{0, 1000, 1000, 0, 0, 0, 0, 10, 10, 0, 0};
-  const auto tangential = lens_of(k, {0, 0, 0, 1e-3, 0}, square);
+  const auto tangential = fit_lens(k, {0, 0, 0, 1e-3, 0}, square);
   ASSERT_TRUE(tangential);
   EXPECT_NEAR(tangential->tangential, 1000 * 1e-3 * std::hypot(4 * 0.25, 2 * 0.25), 1e-9);
   // fy two percent more than the chip's height says: the uppermost row is off by two percent of its distance.
-  const auto aspect = lens_of({1000, 0, 499.5, 0, 1000 / 0.98, 499.5, 0, 0, 1}, {}, square);
+  const auto aspect = fit_lens({1000, 0, 499.5, 0, 1000 / 0.98, 499.5, 0, 0, 1}, {}, square);
   ASSERT_TRUE(aspect);
   EXPECT_NEAR(aspect->aspect, 0.02 * 500, 1e-9);
   EXPECT_EQ(aspect->lens.image_distance, 10);
@@ -286,7 +286,7 @@ TEST(LensOf, RefusesWhatIsNoCameraInfo) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::array<double, 9> good = {1600, 0, 959.5, 0, 1600, 539.5, 0, 0, 1};
   const auto reason = [](const std::array<double, 9>& k, const std::vector<double>& d, const CameraConstants& c) {
-    const auto fitted = lens_of(k, d, c);
+    const auto fitted = fit_lens(k, d, c);
     EXPECT_FALSE(fitted);
     return fitted ? CameraReason{} : fitted.error();
   };

@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
-
+#include "least_squares.h"
 #include "opencv_lens.h"
 #include "trk_bridge/camera/calibration.h"
 #include "trk_bridge/camera/image.h"
@@ -23,9 +22,9 @@ struct View {
 };
 
 /// k1 and k2 of `lens` by least squares of the distorted radius.
-void fit_lens(const View& view, Lens& lens) noexcept {
-  Eigen::Matrix<double, node_count, 2> terms;
-  Eigen::Matrix<double, node_count, 1> wanted;
+void fit_distortion(const View& view, Lens& lens) noexcept {
+  Terms terms(node_count, 2);
+  Values wanted(node_count);
   for (int i = 0; i < node_count; ++i) {
     const double fraction = std::sin((i + 0.5) * (M_PI_2 / node_count));
     const double distorted = view.reach * fraction;
@@ -33,10 +32,11 @@ void fit_lens(const View& view, Lens& lens) noexcept {
     // An error of the factor moves the distorted point by that much of the radius, as far as D lets it through.
     const double weight = distorted * view.lens.radial.distorted(undistorted).slope;
     const double squared = fraction * fraction;
-    terms.row(i) << weight * squared, weight * squared * squared;
+    terms(i, 0) = weight * squared;
+    terms(i, 1) = weight * squared * squared;
     wanted[i] = weight * (undistorted / distorted - 1);
   }
-  const Eigen::Vector2d k = terms.colPivHouseholderQr().solve(wanted);
+  const Unknowns k = least_squares(terms, wanted);
   const double unit = view.reach * lens.image_distance;
   lens.k1 = k[0] / (unit * unit);
   lens.k2 = k[1] / (unit * unit) / (unit * unit);
@@ -85,27 +85,27 @@ bool has_radial_terms(const RadialModel& radial) noexcept {
 
 }  // namespace
 
-Result<FittedLens> lens_of(const std::array<double, 9>& k, const std::vector<double>& d,
-                           const wire::CameraConstants& constants) noexcept {
+Result<FittedLens> fit_lens(const std::array<double, 9>& k, const std::vector<double>& d,
+                            const wire::CameraConstants& constants) noexcept {
   if (const auto sound = check(constants); !sound) return tl::unexpected(sound.error());
-  const Result<OpenCvLens> told = opencv_lens(k, d);
-  if (!told) return tl::unexpected(told.error());
+  const Result<OpenCvLens> opencv = opencv_lens(k, d);
+  if (!opencv) return tl::unexpected(opencv.error());
   const Raster raster = raster_of(constants);
   FittedLens fitted;
-  fitted.lens.image_distance = told->fx / raster.mx;
-  fitted.lens.center_shift = -to_chip(raster, {told->cx, told->cy});
+  fitted.lens.image_distance = opencv->fx / raster.mx;
+  fitted.lens.center_shift = -to_chip(raster, {opencv->cx, opencv->cy});
   const double reach = image_reach(fitted.lens, raster) / fitted.lens.image_distance;
-  const double farthest_row = std::max(std::abs(-0.5 - told->cy), std::abs(raster.height - 0.5 - told->cy));
-  fitted.aspect = std::abs(1 - raster.my * fitted.lens.image_distance / told->fy) * farthest_row;
+  const double farthest_row = std::max(std::abs(-0.5 - opencv->cy), std::abs(raster.height - 0.5 - opencv->cy));
+  fitted.aspect = std::abs(1 - raster.my * fitted.lens.image_distance / opencv->fy) * farthest_row;
   if (!std::isfinite(reach) || !(reach > 0) || !std::isfinite(fitted.aspect)) {
     return tl::unexpected(CameraReason::bad_calibration);
   }
-  const Result<LensInverse> inverse = LensInverse::over(*told, reach);
+  const Result<LensInverse> inverse = LensInverse::over(*opencv, reach);
   if (!inverse) return tl::unexpected(inverse.error());
-  const View view{*told, *inverse, reach};
+  const View view{*opencv, *inverse, reach};
   fitted.tangential = worst_tangential(view, raster);
-  if (!has_radial_terms(told->radial)) return fitted;
-  fit_lens(view, fitted.lens);
+  if (!has_radial_terms(opencv->radial)) return fitted;
+  fit_distortion(view, fitted.lens);
   if (monotonic_radius(fitted.lens) < reach * fitted.lens.image_distance) {
     return tl::unexpected(CameraReason::not_monotonic);
   }
