@@ -1,10 +1,10 @@
-// Numbers as diagnostics tell them.
+// Numbers as diagnostics show them.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-namespace trk_bridge::ros1 {
+namespace trk_bridge::bridge {
 
 /// "3.2 s"
 std::string seconds_text(double seconds);
@@ -19,4 +19,4 @@ double seconds_between(std::int64_t from, std::int64_t to);
 /// Events a second between two looks, `from` and `to` in ns; 0 when no time has passed.
 double rate_between(std::uint64_t events_before, std::uint64_t events_now, std::int64_t from, std::int64_t to);
 
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::bridge

@@ -5,21 +5,22 @@
 
 #include "diagnostic_text.h"
 
-namespace trk_bridge::ros1 {
+namespace trk_bridge::bridge {
 namespace {
 
 constexpr double nanoseconds_per_second = 1e9;
 
 }  // namespace
 
-void summarize(const std::vector<Finding>& found, diagnostic_updater::DiagnosticStatusWrapper& status) {
-  std::uint8_t level = diagnostic_msgs::DiagnosticStatus::OK;
+void summarize(const std::vector<Finding>& found, Status& status) {
+  Level level = Level::ok;
   std::string text;
   for (const auto& finding : found) {
     level = std::max(level, finding.level);
     text += (text.empty() ? "" : "; ") + finding.text;
   }
-  status.summary(level, text);
+  status.level = level;
+  status.message = text;
 }
 
 std::string seconds_text(double seconds) {
@@ -49,4 +50,4 @@ double rate_between(std::uint64_t events_before, std::uint64_t events_now, std::
   return seconds <= 0 ? 0 : static_cast<double>(events_now - events_before) / seconds;
 }
 
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::bridge

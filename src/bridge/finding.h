@@ -1,15 +1,15 @@
-// Something to tell a person of a node: what it is about, how bad it is, and the words.
+// Something that a person should know: what it is about, how bad it is, and the words.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include "status.h"
 
-namespace trk_bridge::ros1 {
+namespace trk_bridge::bridge {
 
-/// What a finding is about, for telling it once in the log.
+/// What a finding is about, so that the log shows each once.
 enum class Condition : std::uint8_t {
   // of trk_to_ros
   receiving,
@@ -51,11 +51,11 @@ enum class Condition : std::uint8_t {
 /// A condition that holds, and a line for a person.
 struct Finding {
   Condition condition;
-  std::uint8_t level;  ///< of diagnostic_msgs::DiagnosticStatus
+  Level level;
   std::string text;
 };
 
 /// The worst level and all texts, joined.
-void summarize(const std::vector<Finding>& found, diagnostic_updater::DiagnosticStatusWrapper& status);
+void summarize(const std::vector<Finding>& found, Status& status);
 
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::bridge

@@ -1,0 +1,30 @@
+// What diagnostics say of one thing: REP 107's status, without ROS.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace trk_bridge::bridge {
+
+/// The numbers are those of diagnostic_msgs/DiagnosticStatus.
+enum class Level : std::uint8_t { ok = 0, warn = 1, error = 2, stale = 3 };
+
+/// A summary and key-values, in the order in which they are shown.
+struct Status {
+  Level level = Level::ok;
+  std::string message;
+  std::string hardware_id;
+  std::vector<std::pair<std::string, std::string>> values;
+
+  void add(std::string key, std::string value) { values.emplace_back(std::move(key), std::move(value)); }
+  void add(std::string key, const char* value) { values.emplace_back(std::move(key), value); }
+  template <typename Count, typename = std::enable_if_t<std::is_integral_v<Count>>>
+  void add(std::string key, Count count) {
+    values.emplace_back(std::move(key), std::to_string(count));
+  }
+};
+
+}  // namespace trk_bridge::bridge
