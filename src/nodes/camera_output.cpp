@@ -43,7 +43,7 @@ void CameraOutput::publish(const bridge::CameraUpdate& update) {
 void CameraOutput::publish_markers(const bridge::CameraUpdate& update) {
   if (!markers_ || marker_topic_.getNumSubscribers() == 0) return;
   if (update.calibration) {
-    // Params that were withheld tell no focus.
+    // Without params the focus is not known.
     const double focdist = update.params ? update.params->focdist : 0;
     marker_topic_.publish(markers_->draw(messages_.camera_info(), focdist));
     marker_statistics_.store(markers_->statistics());
