@@ -75,7 +75,7 @@ class FileSource final : public transport::CountedSource {
   /// When the next record is to be handed out. Constants come with the first field of a round.
   Clock::time_point due() const {
     if (speed_ == 0) return begin_;
-    // Up, so that nothing is ever early; a century is as good as never, and within what the clock can tell.
+    // Up, so that nothing is ever early; a century is as good as never, and within what the clock can represent.
     const long double ahead =
         std::ceil(static_cast<long double>(played_) * 1e9L / static_cast<long double>(rate_ * speed_));
     return begin_ + nanoseconds(static_cast<std::int64_t>(std::min(ahead, century)));
@@ -83,7 +83,7 @@ class FileSource final : public transport::CountedSource {
 
   /// `sample` once `due` has come, `idle` when `wait` is over before.
   Event wait_until(Clock::time_point due, nanoseconds wait, Clock::time_point now) {
-    // As a difference, for `now + wait` may be past what the clock can tell.
+    // As a difference, for `now + wait` may be past what the clock can represent.
     const bool in_time = wait < nanoseconds::zero() || due - now <= wait;
     const auto until = in_time ? due : now + wait;
     for (auto time = now; time < until; time = Clock::now()) {

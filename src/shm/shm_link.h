@@ -40,7 +40,7 @@ class ShmLink {
 
   explicit ShmLink(const Options& options) noexcept : options_(options) {}
 
-  /// For reading: attaches, or attaches anew, when the time has come for a look; makes nothing. A fault says why there
+  /// For reading: attaches, or reattaches, when it is time to look; creates nothing. A fault says why there
   /// is no segment.
   [[nodiscard]] tl::expected<void, ShmFault> keep(Clock::time_point now) noexcept;
   /// For writing: looks at every call, for a write into a removed segment would be lost, and makes one where there is

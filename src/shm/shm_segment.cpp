@@ -67,7 +67,7 @@ bool means(int slot, int id) noexcept {
   return found && found->id == id;
 }
 
-// The file first: whoever makes the slot anew in between then takes a new file, with another key.
+// The file first: whoever creates the slot again in between then takes a new file, with another key.
 void remove_if_last(int slot, int id) noexcept {
   shmid_ds state{};
   if (::shmctl(id, IPC_STAT, &state) != 0 || state.shm_nattch != 0 || !may_remove(state)) return;

@@ -22,7 +22,7 @@ inline constexpr int shm_slots = 62;
 /// What every trk segment begins with, as the maker's unsigned long.
 inline constexpr std::uint32_t shm_magic = 0x2357BD01;
 
-/// Where things lie in a segment, in bytes from its beginning. The size tells the layout.
+/// Where things lie in a segment, in bytes from its beginning. The size identifies the layout.
 struct ShmLayout {
   std::size_t size;
   wire::Layout record;

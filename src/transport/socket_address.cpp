@@ -140,7 +140,7 @@ SocketAddress bound_address(int fd) {
   SocketAddress address;
   address.length = sizeof address.storage;
   if (::getsockname(fd, address.get(), &address.length) != 0) {
-    throw TransportError("the socket does not tell its port: " + std::generic_category().message(errno));
+    throw TransportError("the port of the socket is not known: " + std::generic_category().message(errno));
   }
   return address;
 }

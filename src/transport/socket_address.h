@@ -32,7 +32,7 @@ std::optional<SocketAddress> numeric_address(const std::string& text);
 SocketAddress any_ipv6(std::uint16_t port) noexcept;
 SocketAddress any_ipv4(std::uint16_t port) noexcept;
 
-/// Mapped IPv4 addresses are told as IPv4; `none` for other families.
+/// Mapped IPv4 addresses count as IPv4; `none` for other families.
 Sender sender_of(const sockaddr_storage& address) noexcept;
 
 bool is_any(const SocketAddress& address) noexcept;

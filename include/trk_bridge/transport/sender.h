@@ -13,7 +13,7 @@ enum class SenderKind : std::uint8_t { none, ipv4, ipv6, shm, file, memory };
 /// An address and port, a slot, or what else a record comes from.
 struct Sender {
   SenderKind kind = SenderKind::none;
-  std::array<std::uint8_t, 16> address{};  ///< network byte order; IPv4 in the first four, mapped IPv4 is told as IPv4
+  std::array<std::uint8_t, 16> address{};  ///< network byte order; IPv4 in the first four, mapped IPv4 counts as IPv4
   std::uint32_t number = 0;                ///< port, slot
 };
 
