@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "root.h"
+#include "numeric.h"
 
 namespace trk_bridge::camera {
 namespace {

@@ -1,9 +1,12 @@
+// Angles and roots.
 #pragma once
 
 #include <cmath>
 #include <limits>
 
 namespace trk_bridge::camera {
+
+inline constexpr double degrees_per_radian = 180.0 / M_PI;
 
 /// A function's value and slope at one place.
 struct ValueAndSlope {
