@@ -8,7 +8,6 @@
 #include <ros/node_handle.h>
 
 #include "camera_status.h"
-#include "inbox.h"
 #include "samples.h"
 
 namespace trk_bridge::rviz_display {
