@@ -13,6 +13,7 @@
 #include "file/take_file.h"
 #include "memory_feed.h"
 #include "temporary_directory.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/wire/format.h"
 #include "udp.h"
 #include "vectors.h"
