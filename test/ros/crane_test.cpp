@@ -1,7 +1,6 @@
 // The crane's way out and back, as launch/crane.launch makes it: joints, tf, trk over UDP, tf.
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,6 +14,8 @@
 #include <trk_bridge/CameraParams.h>
 
 #include "fixture.h"
+#include "reserved_port.h"
+#include "roslaunch.h"
 #include "trk_bridge/ros/frames.h"
 
 namespace trk_bridge::test {
@@ -25,38 +26,6 @@ constexpr double degrees = 1e-3;       // so may these
 constexpr double pixels = 1e-3;        // and these of every element of K
 const ::ros::Duration long_enough(5);  // of moving samples
 constexpr std::size_t enough = 120;    // samples
-constexpr std::chrono::seconds patience{60};
-
-/// roslaunch and all its nodes, ended with the test.
-class Launched {
- public:
-  explicit Launched(std::vector<std::string> words) : roslaunch_(std::move(words)) {}
-  ~Launched() { (void)end(); }
-  Launched(const Launched&) = delete;
-  Launched& operator=(const Launched&) = delete;
-
-  /// What it said, once it has ended.
-  std::string end() {
-    if (ended_) return said_;
-    ended_ = true;
-    roslaunch_.signal(SIGINT);
-    said_ = roslaunch_.rest_of_out() + roslaunch_.rest_of_err();
-    EXPECT_EQ(roslaunch_.wait(), 0) << said_;
-    return said_;
-  }
-
- private:
-  Program roslaunch_;
-  std::string said_;
-  bool ended_ = false;
-};
-
-std::vector<std::string> crane_launch(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{"/usr/bin/env", "roslaunch",   "trk_bridge",
-                                 "crane.launch", "rviz:=false", "endpoint:=" + udp_url(free_udp_port())};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  return words;
-}
 
 double degrees_between(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) {
   return Eigen::Quaterniond(one.linear()).angularDistance(Eigen::Quaterniond(other.linear())) * 180 / M_PI;
@@ -76,7 +45,7 @@ class CraneThereAndBack : public ::testing::TestWithParam<const char*> {
         crane_info_("/crane/camera_info"),
         returned_info_("/returned/camera_info"),
         listener_(transforms_),
-        launched_(crane_launch({std::string("preset:=") + GetParam()})) {}
+        launched_("crane.launch", {"rviz:=false", "endpoint:=" + port_.url(), std::string("preset:=") + GetParam()}) {}
 
   /// Both cameras have moved long enough, and were told often enough meanwhile.
   bool moved() const {
@@ -123,11 +92,12 @@ class CraneThereAndBack : public ::testing::TestWithParam<const char*> {
   Recorder<sensor_msgs::CameraInfo> crane_info_, returned_info_;
   tf2_ros::Buffer transforms_{::ros::Duration(60)};
   tf2_ros::TransformListener listener_;
-  Launched launched_;
+  const ReservedPort port_;
+  Roslaunch launched_;
 };
 
 TEST_P(CraneThereAndBack, BothCamerasCoincide) {
-  ASSERT_TRUE(eventually([this] { return moved(); }, patience)) << launched_.end();
+  ASSERT_TRUE(eventually([this] { return moved(); })) << launched_.end();
   const auto times = crane_times();
   std::size_t compared = 0, with_their_lens = 0;
   Eigen::AlignedBox3d covered;
@@ -158,18 +128,16 @@ TEST(Crane, TakesJointStatesFromElsewhere) {
   const auto publisher = ::ros::NodeHandle().advertise<sensor_msgs::JointState>("/joint_states", 100);
   Recorder<sensor_msgs::JointState> joint_states("/joint_states");
   Recorder<trk_bridge::CameraParams> returned("/returned/params");
-  Launched launched(crane_launch({"joints:=external"}));
+  const ReservedPort port;
+  Roslaunch launched("crane.launch", {"rviz:=false", "endpoint:=" + port.url(), "joints:=external"});
   sensor_msgs::JointState all_zero;
   all_zero.name = {"column_pan", "arm_elevation", "arm_extension", "head_pan", "head_tilt", "head_roll"};
   all_zero.position.assign(all_zero.name.size(), 0.0);
-  ASSERT_TRUE(eventually(
-      [&] {
-        all_zero.header.stamp = ::ros::Time::now();
-        publisher.publish(all_zero);
-        return returned.messages.size() > 20;
-      },
-      patience))
-      << launched.end();
+  ASSERT_TRUE(eventually([&] {
+    all_zero.header.stamp = ::ros::Time::now();
+    publisher.publish(all_zero);
+    return returned.messages.size() > 20;
+  })) << launched.end();
   // The arm level and drawn in, the camera looking along it, hung below its end.
   const auto& camera = returned.messages.back();
   EXPECT_NEAR(camera.x, -2, 1e-9);
