@@ -134,9 +134,9 @@ class TestCard : public TrkToRosTest {
 
   /// Pictures are made in a thread of their own, as in a process of their own.
   void make_card() {
-    ::ros::NodeHandle node(name_space);
-    node.setCallbackQueue(&card_callbacks_);
-    card_.emplace(node, ::ros::NodeHandle(card_name()), card_name());
+    ::ros::NodeHandle topics(name_space);
+    topics.setCallbackQueue(&card_callbacks_);
+    card_.emplace(topics, ::ros::NodeHandle(card_name()), card_name());
     card_spinner_.start();
   }
   std::string card_name() const { return name_space + "/test_card"; }
