@@ -16,7 +16,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "trk_bridge/wire/codec.h"
-#include "trk_to_ros.h"
+#include "nodes/trk_to_ros.h"
 #include "udp.h"
 
 namespace trk_bridge::test {

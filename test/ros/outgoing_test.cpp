@@ -12,7 +12,7 @@
 #include "free_slot.h"
 #include "node_process.h"
 #include "receiver.h"
-#include "ros_to_trk.h"
+#include "nodes/ros_to_trk.h"
 #include "temporary_directory.h"
 #include "trk_bridge/ros/messages.h"
 #include "file/take_file.h"

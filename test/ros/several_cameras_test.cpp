@@ -5,7 +5,7 @@
 #include "free_slot.h"
 #include "program.h"
 #include "temporary_directory.h"
-#include "trk_bridge/transport/sink.h"
+#include "trk_bridge/endpoints/endpoints.h"
 
 namespace trk_bridge::test {
 namespace {

@@ -23,9 +23,9 @@
 #include "fixture.h"
 #include "picture_measure.h"
 #include "repeating.h"
-#include "test_card.h"
+#include "demo/test_card.h"
 #include "trk_bridge/ros/frames.h"
-#include "trk_bridge/ros/parameter_reader.h"
+#include "ros/parameter_reader.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::test {

@@ -10,7 +10,7 @@
 #include "../unit/camera/worked_cases.h"
 #include "fixture.h"
 #include "receiver.h"
-#include "ros_to_trk.h"
+#include "nodes/ros_to_trk.h"
 #include "same_camera.h"
 #include "trk_bridge/wire/format.h"
 
