@@ -16,7 +16,7 @@
 #include "ros/stamper.h"
 #include "file/part_file.h"
 #include "trk_bridge/transport/source.h"
-#include "file/take_file.h"
+#include "file/take.h"
 
 namespace trk_bridge::bag {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bag_file.h"
-#include "file/take_file.h"
+#include "file/take.h"
 
 namespace trk_bridge::bag {
 

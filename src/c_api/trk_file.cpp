@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "file/take_file.h"
+#include "file/take.h"
 #include "handles.h"
 #include "records.h"
 #include "trk_bridge/transport/source.h"

@@ -4,8 +4,7 @@
 
 #include "datagram_decoder.h"
 #include "datagram_encoder.h"
-#include "transport/datagram_options.h"
-#include "transport/datagram_source.h"
+#include "transport/datagram.h"
 
 namespace trk_bridge::trk {
 namespace {

@@ -15,7 +15,7 @@
 #include "nodes/ros_to_trk.h"
 #include "temporary_directory.h"
 #include "trk_bridge/ros/messages.h"
-#include "file/take_file.h"
+#include "file/take.h"
 
 namespace trk_bridge::test {
 namespace {

@@ -6,7 +6,7 @@
 #include "program.h"
 #include "roslaunch.h"
 #include "temporary_directory.h"
-#include "file/take_file.h"
+#include "file/take.h"
 #include "vectors.h"
 
 namespace trk_bridge::test {

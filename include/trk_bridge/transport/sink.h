@@ -7,7 +7,7 @@
 #include <tl/expected.hpp>
 
 #include "trk_bridge/base/snapshot.h"
-#include "trk_bridge/transport/fault.h"
+#include "trk_bridge/transport/sample.h"
 #include "trk_bridge/wire/record.h"
 
 namespace trk_bridge::transport {

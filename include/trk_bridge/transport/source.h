@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "trk_bridge/transport/fault.h"
 #include "trk_bridge/transport/sample.h"
 
 namespace trk_bridge::transport {

@@ -14,7 +14,7 @@
 
 #include "bag/bag_take.h"
 #include "temporary_directory.h"
-#include "file/take_file.h"
+#include "file/take.h"
 #include "trk_bridge/wire/codec.h"
 #include "vectors.h"
 

@@ -11,7 +11,7 @@
 #include "reserved_port.h"
 #include "temporary_directory.h"
 #include "trk_bridge/camera/camera.h"
-#include "file/take_file.h"
+#include "file/take.h"
 #include "vectors.h"
 
 namespace trk_bridge::programs {

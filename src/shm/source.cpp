@@ -7,15 +7,15 @@
 #include <poll.h>
 
 #include "base/clock.h"
+#include "link.h"
 #include "scheme.h"
-#include "shm_link.h"
 #include "transport/counted_source.h"
-#include "transport/origin.h"
+#include "trk_bridge/transport/sample.h"
 
 namespace trk_bridge::shm {
 namespace {
 
-using Clock = ShmLink::Clock;
+using Clock = Link::Clock;
 using std::chrono::nanoseconds;
 using transport::Event;
 using transport::SourceState;
@@ -27,7 +27,7 @@ constexpr nanoseconds poll_period = std::chrono::microseconds(250);
 struct Attachment {
   std::uint64_t attached = 0, overwritten = 0;
   bool absent = true;
-  ShmFault why{ShmProblem::no_file};
+  SlotFault why{SlotProblem::no_file};
 };
 
 /// Looks for a segment until there is one, then polls its counters.
@@ -36,9 +36,9 @@ class ShmSource final : public transport::CountedSource {
   explicit ShmSource(const Settings& settings)
       : CountedSource("shm slot " + std::to_string(settings.slot)),
         slot_(settings.slot),
-        link_(ShmLink::Options{settings.slot, nullptr, settings.mode, false}) {
-    if (slot_ < 0 || slot_ >= shm_slots) {
-      throw transport::TransportError("shm " + describe({ShmProblem::bad_slot, slot_}));
+        link_(Link::Options{settings.slot, nullptr, settings.mode, false}) {
+    if (slot_ < 0 || slot_ >= slot_count) {
+      throw transport::TransportError("shm " + describe({SlotProblem::bad_slot, slot_}));
     }
     attachment_.why.slot = slot_;
     published_.store(attachment_);
@@ -55,7 +55,7 @@ class ShmSource final : public transport::CountedSource {
       // As a difference, for `begin + wait` may be past what the clock can represent.
       const nanoseconds left = endless ? nanoseconds::max() : wait - (Clock::now() - begin);
       if (left <= nanoseconds::zero()) return Event::idle;
-      const nanoseconds period = link_.segment() != nullptr ? poll_period : nanoseconds(ShmLink::attach_period);
+      const nanoseconds period = link_.segment() != nullptr ? poll_period : nanoseconds(Link::attach_period);
       if (!pause(std::min(left, period))) return failed(errno);
     }
   }
@@ -74,13 +74,13 @@ class ShmSource final : public transport::CountedSource {
 
   /// Constants first: what follows is understood by them.
   Event look(transport::Reception& into) {
-    const ShmSegment* segment = link_.segment();
+    const Segment* segment = link_.segment();
     if (segment == nullptr) return Event::idle;
     wire::Fault fault{};
-    ShmRead met = link_.read(constants_, fault);
-    const bool is_constants = met != ShmRead::nothing;
+    ReadResult met = link_.read(constants_, fault);
+    const bool is_constants = met != ReadResult::nothing;
     if (!is_constants) met = link_.read(params_, fault);
-    if (met == ShmRead::nothing) return Event::idle;
+    if (met == ReadResult::nothing) return Event::idle;
     transport::Sample& sample = into.sample;
     sample = {};
     sample.arrival = base::wall_now();
@@ -91,7 +91,7 @@ class ShmSource final : public transport::CountedSource {
       attachment_.overwritten = link_.overwritten();
       published_.store(attachment_);
     }
-    if (met == ShmRead::malformed) {
+    if (met == ReadResult::malformed) {
       into.fault = fault;
       return malformed();
     }
@@ -124,7 +124,7 @@ class ShmSource final : public transport::CountedSource {
   }
 
   const int slot_;
-  ShmLink link_;
+  Link link_;
   wire::CameraParams params_;
   wire::CameraConstants constants_;
   Attachment attachment_;

@@ -9,13 +9,13 @@
 
 #include <tl/expected.hpp>
 
-#include "shm_segment.h"
+#include "segment.h"
 
 namespace trk_bridge::shm {
 
-inline ShmFault shm_fault(ShmProblem problem, int slot) noexcept { return {problem, slot, 0, 0, 0, 0}; }
+inline SlotFault slot_fault(SlotProblem problem, int slot) noexcept { return {problem, slot, 0, 0, 0, 0}; }
 /// With errno.
-ShmFault shm_system_fault(int slot) noexcept;
+SlotFault system_fault(int slot) noexcept;
 
 /// The slot file's name without allocating.
 class SlotPath {
@@ -29,15 +29,15 @@ class SlotPath {
 };
 
 /// The key of the slot's file: a fault when there is no such regular file, or the key is of no use.
-[[nodiscard]] tl::expected<key_t, ShmFault> slot_key(int slot) noexcept;
+[[nodiscard]] tl::expected<key_t, SlotFault> slot_key(int slot) noexcept;
 
 /// Makes the slot's file. False when there is one already.
-[[nodiscard]] tl::expected<bool, ShmFault> make_slot_file(int slot) noexcept;
+[[nodiscard]] tl::expected<bool, SlotFault> make_slot_file(int slot) noexcept;
 /// Puts a file with another inode, and so with another key, in the place of the slot's.
-[[nodiscard]] tl::expected<void, ShmFault> renew_slot_file(int slot) noexcept;
+[[nodiscard]] tl::expected<void, SlotFault> renew_slot_file(int slot) noexcept;
 
 /// A fault when another slot's file has this key.
-[[nodiscard]] tl::expected<void, ShmFault> check_unshared(int slot, key_t key) noexcept;
+[[nodiscard]] tl::expected<void, SlotFault> check_unshared(int slot, key_t key) noexcept;
 
 struct FoundSegment {
   key_t key;
@@ -45,6 +45,6 @@ struct FoundSegment {
   shmid_ds state;
 };
 /// The segment that the slot means at this moment. Attaches to nothing.
-[[nodiscard]] tl::expected<FoundSegment, ShmFault> find_segment(int slot) noexcept;
+[[nodiscard]] tl::expected<FoundSegment, SlotFault> find_segment(int slot) noexcept;
 
 }  // namespace trk_bridge::shm

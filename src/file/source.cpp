@@ -7,7 +7,7 @@
 
 #include "base/clock.h"
 #include "scheme.h"
-#include "take_file.h"
+#include "take.h"
 #include "transport/counted_source.h"
 
 namespace trk_bridge::file {

@@ -1,11 +1,26 @@
-#include "origin.h"
+#include "trk_bridge/transport/sample.h"
 
 #include <array>
 #include <cstddef>
 #include <string_view>
 
+#include <arpa/inet.h>
+
 namespace trk_bridge::transport {
 namespace {
+
+std::string address_text(int family, const Sender& sender) {
+  char text[INET6_ADDRSTRLEN] = "";
+  ::inet_ntop(family, sender.address.data(), text, sizeof text);
+  return text;
+}
+
+std::string describe_wire(const Fault& fault) {
+  wire::Fault of_wire{static_cast<wire::Reason>(fault.code())};
+  of_wire.about_field = fault.field() >= 0;
+  if (of_wire.about_field) of_wire.field = static_cast<std::uint8_t>(fault.field());
+  return wire::describe(of_wire);
+}
 
 constexpr std::size_t generations = 2, abis = 3, orders = 2;
 
@@ -58,6 +73,28 @@ constexpr Texts all_texts() noexcept {
 constexpr Texts texts = all_texts();
 
 }  // namespace
+
+std::string to_string(const Sender& sender) {
+  switch (sender.kind) {
+    case SenderKind::none:
+      return "-";
+    case SenderKind::ipv4:
+      return address_text(AF_INET, sender) + ":" + std::to_string(sender.number);
+    case SenderKind::ipv6:
+      return "[" + address_text(AF_INET6, sender) + "]:" + std::to_string(sender.number);
+    case SenderKind::shm:
+      return "slot " + std::to_string(sender.number);
+    case SenderKind::file:
+      return "file";
+    case SenderKind::memory:
+      return "memory";
+  }
+  return "-";
+}
+
+Fault::Fault(const wire::Fault& fault) noexcept
+    : Fault(wire::name(fault.reason), describe_wire, static_cast<std::uint8_t>(fault.reason),
+            fault.about_field ? std::int16_t{fault.field} : std::int16_t{-1}) {}
 
 const char* origin_of(const wire::WireForm& form, bool layout_guessed) noexcept {
   if (form.encoding == wire::Encoding::ascii) return "ASCII";

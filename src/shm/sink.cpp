@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "link.h"
 #include "scheme.h"
-#include "shm_link.h"
 
 namespace trk_bridge::shm {
 namespace {
@@ -16,10 +16,10 @@ using transport::Written;
 
 constexpr wire::Layout default_layout{wire::Generation::document, wire::Abi::lp64, wire::ByteOrder::little};
 
-ShmLink::Options options_of(const Settings& settings) {
+Link::Options options_of(const Settings& settings) {
   const std::string slot = "shm slot " + std::to_string(settings.slot);
   const wire::Layout record = wire::resolve(settings.layout, default_layout);
-  const ShmLayout* layout = shm_layout_of(record);
+  const SegmentLayout* layout = layout_of(record);
   if (layout == nullptr) {
     throw TransportError(slot + ": no segment has the layout " + wire::describe(record) +
                          "; allowed are document and identified, lp64 and i386, in this machine's byte order");
@@ -30,12 +30,13 @@ ShmLink::Options options_of(const Settings& settings) {
   return {settings.slot, layout, settings.mode, settings.recreate};
 }
 
-/// A segment that was removed or replaced is created again within the write that meets it; `gone` says that this failed.
+/// A segment that was removed or replaced is created again within the write that meets it; `gone` says that this
+/// failed.
 class ShmSink final : public transport::Sink {
  public:
   explicit ShmSink(const Settings& settings)
       : name_("shm slot " + std::to_string(settings.slot)), link_(options_of(settings)) {
-    const auto open = link_.keep_for_writing(ShmLink::Clock::now());
+    const auto open = link_.keep_for_writing(Link::Clock::now());
     if (!open) throw TransportError("shm " + describe(open.error()));
     if (!link_.segment()->writable()) throw TransportError(name_ + ": no permission to write to the segment");
   }
@@ -52,7 +53,7 @@ class ShmSink final : public transport::Sink {
 
   template <typename Record>
   Written write_record(const Record& record) {
-    if (const auto kept = link_.keep_for_writing(ShmLink::Clock::now()); !kept) {
+    if (const auto kept = link_.keep_for_writing(Link::Clock::now()); !kept) {
       return tl::make_unexpected(SinkFault{SinkReason::gone, {}, kept.error().error_number});
     }
     if (!link_.segment()->writable()) return tl::make_unexpected(SinkFault{SinkReason::system, {}, EACCES});
@@ -63,7 +64,7 @@ class ShmSink final : public transport::Sink {
   }
 
   const std::string name_;
-  ShmLink link_;
+  Link link_;
 };
 
 }  // namespace

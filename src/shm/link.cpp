@@ -1,4 +1,4 @@
-#include "shm_link.h"
+#include "link.h"
 
 #include <algorithm>
 
@@ -6,9 +6,9 @@ namespace trk_bridge::shm {
 namespace {
 
 // Constants have been written when their counter has moved, or, after 65536 of them, when they are not all zero.
-bool has_constants(const ShmSegment& segment) noexcept {
+bool has_constants(const Segment& segment) noexcept {
   if (segment.constants_counter() != 0) return true;
-  ShmImage image;
+  RecordImage image;
   if (!segment.copy_constants(image)) return true;
   const auto bytes = image.view();
   return std::any_of(bytes.begin(), bytes.end(), [](char c) { return c != 0; });
@@ -16,13 +16,13 @@ bool has_constants(const ShmSegment& segment) noexcept {
 
 }  // namespace
 
-bool ShmLink::look_due(Clock::time_point now, std::chrono::milliseconds period) noexcept {
+bool Link::look_due(Clock::time_point now, std::chrono::milliseconds period) noexcept {
   if (looked_ && now - *looked_ < period) return false;
   looked_ = now;
   return true;
 }
 
-tl::expected<void, ShmFault> ShmLink::keep(Clock::time_point now) noexcept {
+tl::expected<void, SlotFault> Link::keep(Clock::time_point now) noexcept {
   if (segment_) {
     if (!look_due(now, check_period)) return {};
     return check(true, nullptr, now);
@@ -31,13 +31,13 @@ tl::expected<void, ShmFault> ShmLink::keep(Clock::time_point now) noexcept {
   return attach(nullptr, now);
 }
 
-tl::expected<void, ShmFault> ShmLink::keep_for_writing(Clock::time_point now) noexcept {
+tl::expected<void, SlotFault> Link::keep_for_writing(Clock::time_point now) noexcept {
   if (!segment_) return attach(options_.create, now);
   return check(look_due(now, check_period), options_.create, now);
 }
 
-tl::expected<void, ShmFault> ShmLink::check(bool look_up, const ShmLayout* create, Clock::time_point now) noexcept {
-  if (segment_->fate(look_up) != ShmFate::current) {
+tl::expected<void, SlotFault> Link::check(bool look_up, const SegmentLayout* create, Clock::time_point now) noexcept {
+  if (segment_->fate(look_up) != SegmentFate::current) {
     segment_.reset();
     return attach(create, now);
   }
@@ -61,10 +61,10 @@ tl::expected<void, ShmFault> ShmLink::check(bool look_up, const ShmLayout* creat
   return {};
 }
 
-tl::expected<void, ShmFault> ShmLink::attach(const ShmLayout* create, Clock::time_point now) noexcept {
+tl::expected<void, SlotFault> Link::attach(const SegmentLayout* create, Clock::time_point now) noexcept {
   looked_ = now;
-  auto segment = create != nullptr ? ShmSegment::attach_or_create(options_.slot, *create, options_.mode)
-                                   : ShmSegment::attach(options_.slot);
+  auto segment = create != nullptr ? Segment::attach_or_create(options_.slot, *create, options_.mode)
+                                   : Segment::attach(options_.slot);
   if (!segment) {
     absent_ = segment.error();
     return tl::unexpected(segment.error());
@@ -77,7 +77,7 @@ tl::expected<void, ShmFault> ShmLink::attach(const ShmLayout* create, Clock::tim
   return {};
 }
 
-void ShmLink::begin_reading() noexcept {
+void Link::begin_reading() noexcept {
   const bool restore = written_constants_ && segment_->writable() && !has_constants(*segment_);
   // They went into a segment before, so this layout may only refuse their id, which to_image drops.
   if (restore && !segment_->write(*written_constants_)) written_constants_.reset();
@@ -86,42 +86,42 @@ void ShmLink::begin_reading() noexcept {
   constants_unread_ = !restore && has_constants(*segment_);
 }
 
-ShmRead ShmLink::read(wire::CameraParams& into, wire::Fault& fault) noexcept {
-  if (!segment_ || segment_->params_counter() == params_read_) return ShmRead::nothing;
-  ShmImage image;
-  if (!segment_->copy_params(image)) return ShmRead::nothing;
+ReadResult Link::read(wire::CameraParams& into, wire::Fault& fault) noexcept {
+  if (!segment_ || segment_->params_counter() == params_read_) return ReadResult::nothing;
+  RecordImage image;
+  if (!segment_->copy_params(image)) return ReadResult::nothing;
   overwritten_ += static_cast<std::uint16_t>(image.counter - params_read_ - 1U);
   params_read_ = image.counter;
   const auto params = wire::params_from_image(image.view(), segment_->layout().record);
   if (!params) {
     fault = params.error();
-    return ShmRead::malformed;
+    return ReadResult::malformed;
   }
   into = *params;
-  return ShmRead::fresh;
+  return ReadResult::fresh;
 }
 
-ShmRead ShmLink::read(wire::CameraConstants& into, wire::Fault& fault) noexcept {
-  if (!segment_) return ShmRead::nothing;
-  if (!constants_unread_ && segment_->constants_counter() == constants_read_) return ShmRead::nothing;
-  ShmImage image;
-  if (!segment_->copy_constants(image)) return ShmRead::nothing;
+ReadResult Link::read(wire::CameraConstants& into, wire::Fault& fault) noexcept {
+  if (!segment_) return ReadResult::nothing;
+  if (!constants_unread_ && segment_->constants_counter() == constants_read_) return ReadResult::nothing;
+  RecordImage image;
+  if (!segment_->copy_constants(image)) return ReadResult::nothing;
   constants_unread_ = false;
   constants_read_ = image.counter;
   const auto constants = wire::constants_from_image(image.view(), segment_->layout().record);
   if (!constants) {
     fault = constants.error();
-    return ShmRead::malformed;
+    return ReadResult::malformed;
   }
   into = *constants;
-  return ShmRead::fresh;
+  return ReadResult::fresh;
 }
 
-tl::expected<void, wire::Fault> ShmLink::write(const wire::CameraParams& params) noexcept {
+tl::expected<void, wire::Fault> Link::write(const wire::CameraParams& params) noexcept {
   return segment_->write(params);
 }
 
-tl::expected<void, wire::Fault> ShmLink::write(const wire::CameraConstants& constants) noexcept {
+tl::expected<void, wire::Fault> Link::write(const wire::CameraConstants& constants) noexcept {
   auto written = segment_->write(constants);
   if (written) written_constants_ = constants;
   return written;

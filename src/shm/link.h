@@ -7,13 +7,13 @@
 
 #include <tl/expected.hpp>
 
-#include "shm_segment.h"
+#include "segment.h"
 #include "trk_bridge/wire/codec.h"
 
 namespace trk_bridge::shm {
 
 /// What one look for a new record met.
-enum class ShmRead : std::uint8_t {
+enum class ReadResult : std::uint8_t {
   fresh,      ///< a new record
   nothing,    ///< none since the last one
   malformed,  ///< a new one that is not sound
@@ -21,13 +21,13 @@ enum class ShmRead : std::uint8_t {
 
 /// Reads and writes one slot over all the segments it has in the course of time. Of a segment it attaches to, it reads
 /// parameters written from then on, and constants written before as well. One thread at a time; allocates nothing.
-class ShmLink {
+class Link {
  public:
   /// Which slot, and what to make where there is nothing.
   struct Options {
     int slot = 0;
     /// Writing makes a segment of this layout where there is none; null: it waits for somebody else's.
-    const ShmLayout* create = nullptr;
+    const SegmentLayout* create = nullptr;
     int mode = 0666;        ///< of segments it makes
     bool recreate = false;  ///< trkMemRecreate: a fresh segment whenever all others have left
   };
@@ -38,25 +38,25 @@ class ShmLink {
   static constexpr std::chrono::milliseconds check_period{200};
   static constexpr std::chrono::milliseconds attach_period{50};
 
-  explicit ShmLink(const Options& options) noexcept : options_(options) {}
+  explicit Link(const Options& options) noexcept : options_(options) {}
 
   /// For reading: attaches, or reattaches, when it is time to look; creates nothing. A fault says why there
   /// is no segment.
-  [[nodiscard]] tl::expected<void, ShmFault> keep(Clock::time_point now) noexcept;
+  [[nodiscard]] tl::expected<void, SlotFault> keep(Clock::time_point now) noexcept;
   /// For writing: looks at every call, for a write into a removed segment would be lost, and makes one where there is
   /// none.
-  [[nodiscard]] tl::expected<void, ShmFault> keep_for_writing(Clock::time_point now) noexcept;
+  [[nodiscard]] tl::expected<void, SlotFault> keep_for_writing(Clock::time_point now) noexcept;
 
   /// Null without a segment.
-  const ShmSegment* segment() const noexcept { return segment_ ? &*segment_ : nullptr; }
+  const Segment* segment() const noexcept { return segment_ ? &*segment_ : nullptr; }
   /// Segments attached to so far.
   std::uint64_t attached() const noexcept { return attached_; }
   /// Parameters written and replaced by newer ones before they were read.
   std::uint64_t overwritten() const noexcept { return overwritten_; }
 
   /// The newest parameters (constants) not read yet; `fault` is set with malformed.
-  [[nodiscard]] ShmRead read(wire::CameraParams& into, wire::Fault& fault) noexcept;
-  [[nodiscard]] ShmRead read(wire::CameraConstants& into, wire::Fault& fault) noexcept;
+  [[nodiscard]] ReadResult read(wire::CameraParams& into, wire::Fault& fault) noexcept;
+  [[nodiscard]] ReadResult read(wire::CameraConstants& into, wire::Fault& fault) noexcept;
 
   /// There must be a segment() that is writable(). A segment made later begins with the constants written last.
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraParams&) noexcept;
@@ -66,14 +66,14 @@ class ShmLink {
   void close() noexcept { segment_.reset(); }
 
  private:
-  tl::expected<void, ShmFault> attach(const ShmLayout* create, Clock::time_point now) noexcept;
-  tl::expected<void, ShmFault> check(bool look_up, const ShmLayout* create, Clock::time_point now) noexcept;
+  tl::expected<void, SlotFault> attach(const SegmentLayout* create, Clock::time_point now) noexcept;
+  tl::expected<void, SlotFault> check(bool look_up, const SegmentLayout* create, Clock::time_point now) noexcept;
   void begin_reading() noexcept;
   bool look_due(Clock::time_point now, std::chrono::milliseconds period) noexcept;
 
   Options options_;
-  std::optional<ShmSegment> segment_;
-  std::optional<ShmFault> absent_;  // why there is no segment, as of the last look
+  std::optional<Segment> segment_;
+  std::optional<SlotFault> absent_;  // why there is no segment, as of the last look
   std::optional<Clock::time_point> looked_;
   std::uint16_t params_read_ = 0;
   std::uint16_t constants_read_ = 0;
