@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "file/take_file.h"
-
 namespace trk_bridge::base {
 namespace {
 

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "file/take_file.h"
-
 namespace trk_bridge::base {
 namespace {
 

@@ -131,12 +131,12 @@ TEST_F(MonitorModelTest, CamerasThatSendComeFirst) {
 
 TEST_F(MonitorModelTest, RemembersTheLastMalformedRecord) {
   transport::Reception reception;
-  reception.fault = {wire::Reason::not_a_number, 9, true};
+  reception.fault = wire::Fault{wire::Reason::not_a_number, 9, true};
   reception.sample.sender = sender(6000);
   model.add_malformed(reception, begin);
   const auto s = state(milliseconds(1500));
   ASSERT_TRUE(s.malformed);
-  EXPECT_EQ(s.malformed->fault.field, 9);
+  EXPECT_EQ(s.malformed->fault.field(), 9);
   EXPECT_EQ(s.malformed->sender, sender(6000));
   EXPECT_DOUBLE_EQ(s.malformed->age, 1.5);
 }

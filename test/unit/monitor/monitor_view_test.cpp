@@ -29,7 +29,7 @@ CameraState camera(std::uint32_t id) {
   camera::Lens lens;
   lens.image_distance = 12.5;
   auto params = test::params(1234567, id);
-  state.latest = ParamsState{params, {}, camera::decode_pose(params), lens, 38.79, 0.012, false};
+  state.latest = ParamsState{params, "ASCII", camera::decode_pose(params), lens, 38.79, 0.012, false};
   state.constants = test::constants();
   state.counts.accepted = 1000;
   state.rate = 50;
@@ -53,7 +53,7 @@ MonitorState troubled_state(std::uint32_t cameras) {
   state.source.refused = 1;
   state.source.kernel_drops = 2;
   MalformedState malformed;
-  malformed.fault = {wire::Reason::not_a_number, 9, true};
+  malformed.fault = wire::Fault{wire::Reason::not_a_number, 9, true};
   malformed.sender = state.cameras.front().key.sender;
   malformed.age = 3.2;
   state.malformed = malformed;
@@ -149,7 +149,7 @@ TEST(MonitorView, TellsTrouble) {
   state.cameras[1].latest->is_silent = true;
   state.cameras[1].latest->age = 12.3;
   state.cameras[1].latest->params.format |= 0x4000;
-  state.cameras[1].latest->form = {wire::Encoding::binary, {wire::Generation::identified}};
+  state.cameras[1].latest->origin = "binary identified_lp64";
   const std::string text = joined(text_of(state, {200, 60}));
   EXPECT_THAT(text, HasSubstr("malformed 3  refused 1  kernel drops 2  udp port 7000 on every interface\n"
                               "last malformed 3.20 s ago  from 192.0.2.7:50123:  field 9 is not a number\n"));
@@ -158,7 +158,7 @@ TEST(MonitorView, TellsTrouble) {
   EXPECT_THAT(text, HasSubstr("lost 4  out of order 0  duplicate 2  restarts 1"));
   EXPECT_THAT(text, HasSubstr("\n  moving\n"));
   EXPECT_THAT(text, HasSubstr("id 2  SILENT for 12 s  192.0.2.7:50123  counter 1234567\n"));
-  EXPECT_THAT(text, HasSubstr("noise at rest -\n  binary identified lp64 little-endian: euler studio_z_up"));
+  EXPECT_THAT(text, HasSubstr("noise at rest -\n  binary identified_lp64: euler studio_z_up"));
   EXPECT_THAT(text, HasSubstr("shift_on_chip and unknown bits"));
 }
 

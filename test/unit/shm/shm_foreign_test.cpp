@@ -8,6 +8,7 @@
 
 #include "free_slot.h"
 #include "shm/shm_segment.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 
@@ -15,7 +16,13 @@ namespace trk_bridge::shm {
 namespace {
 
 using namespace std::chrono_literals;
+using endpoints::open_sink;
+using endpoints::open_source;
 using ::testing::HasSubstr;
+using transport::Event;
+using transport::Reception;
+using transport::SourceState;
+using transport::TransportError;
 
 std::string contents(int id, std::size_t size) {
   auto* memory = static_cast<char*>(::shmat(id, nullptr, SHM_RDONLY));

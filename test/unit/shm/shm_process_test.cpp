@@ -14,12 +14,18 @@
 
 #include "free_slot.h"
 #include "shm/shm_segment.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::shm {
 namespace {
+
+using endpoints::open_sink;
+using endpoints::open_source;
+using transport::Event;
+using transport::Reception;
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;

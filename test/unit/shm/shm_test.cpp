@@ -9,13 +9,26 @@
 #include <sys/stat.h>
 
 #include "free_slot.h"
+#include "shm/scheme.h"
 #include "shm/shm_segment.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::shm {
 namespace {
+
+using endpoints::open_sink;
+using endpoints::open_source;
+using transport::Event;
+using transport::Reception;
+using transport::Sample;
+using transport::SenderKind;
+using transport::SinkReason;
+using transport::Source;
+using transport::SourceState;
+using transport::TransportError;
 
 using namespace std::chrono_literals;
 
@@ -89,8 +102,7 @@ TEST_F(Shm, what_is_written_is_read) {
   EXPECT_GE(into.sample.arrival, std::chrono::nanoseconds(before).count());
   EXPECT_EQ(into.sample.sender.kind, SenderKind::shm);
   EXPECT_EQ(into.sample.sender.number, static_cast<std::uint32_t>(slot.number()));
-  EXPECT_EQ(into.sample.form.encoding, wire::Encoding::binary);
-  EXPECT_EQ(into.sample.form.layout, shm_layout_of_size(544)->record);
+  EXPECT_STREQ(into.sample.origin, "binary identified_lp64");
   EXPECT_EQ(source->receive(into, 0s), Event::idle);
   EXPECT_EQ(source->statistics().records, 2U);
   EXPECT_EQ(source->statistics().state, SourceState::receiving);
@@ -205,7 +217,7 @@ TEST_F(Shm, a_segment_removed_and_made_anew_is_followed) {
   ASSERT_TRUE(second->write(constants(1920)));
   ASSERT_TRUE(receive_until(*source, [](const Sample& s) { return s.record.index() == 1; }));
   EXPECT_EQ(std::get<wire::CameraConstants>(into.sample.record).image_width, 1920);
-  EXPECT_EQ(into.sample.form.layout, shm_layout_of_size(524)->record);
+  EXPECT_STREQ(into.sample.origin, "binary identified_i386");
   ASSERT_TRUE(second->write(params(2)));
   EXPECT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 2); }));
   EXPECT_EQ(source->statistics().reattached, 1U);
@@ -270,7 +282,7 @@ TEST_F(Shm, an_i386_segment_refuses_a_counter_that_it_cannot_hold) {
   const auto result = sink->write(params(0x100000000));
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().reason, SinkReason::not_encodable);
-  EXPECT_EQ(result.error().fault.reason, wire::Reason::out_of_range);
+  EXPECT_STREQ(result.error().fault.name(), wire::name(wire::Reason::out_of_range));
   EXPECT_EQ(sink->statistics().errors, 1U);
   EXPECT_EQ(sink->statistics().params, 1U);
 }
@@ -285,7 +297,7 @@ TEST_F(Shm, an_unsound_record_is_malformed_and_costs_itself_alone) {
   std::memcpy(memory + document().params_counter, &counter, sizeof counter);
   ::shmdt(memory);
   ASSERT_EQ(source->receive(into, deadline), Event::malformed);
-  EXPECT_EQ(into.fault.reason, wire::Reason::not_finite);
+  EXPECT_STREQ(into.fault.name(), wire::name(wire::Reason::not_finite));
   EXPECT_EQ(into.sample.sender.kind, SenderKind::shm);
   ASSERT_TRUE(sink->write(params(2)));
   ASSERT_EQ(source->receive(into, deadline), Event::sample);
@@ -311,16 +323,16 @@ TEST_F(Shm, a_closed_sink_says_so) {
   EXPECT_FALSE(slot.has_file());
 }
 
-TEST(ShmEndpoints, slots_that_do_not_exist_are_refused) {
+TEST(ShmSettings, slots_that_do_not_exist_are_refused) {
   for (const int number : {-1, 62, 1000}) {
-    ShmEndpoint endpoint;
-    endpoint.slot = number;
-    EXPECT_THROW(open_source(endpoint), TransportError) << number;
-    EXPECT_THROW(open_sink(endpoint), TransportError) << number;
+    Settings settings;
+    settings.slot = number;
+    EXPECT_THROW(shm::open_source(settings), TransportError) << number;
+    EXPECT_THROW(shm::open_sink(settings), TransportError) << number;
   }
 }
 
-TEST(ShmEndpoints, layouts_without_a_segment_are_refused) {
+TEST(ShmSettings, layouts_without_a_segment_are_refused) {
   EXPECT_THROW(open_sink("shm:3?layout=document_llp64"), TransportError);
   EXPECT_THROW(open_sink("shm:3?layout=identified_lp64_be"), TransportError);
 }

@@ -8,13 +8,18 @@
 #include <string>
 
 #include "trk_bridge/base/sequence.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
 
 namespace {
+
+using endpoints::open_sink;
+using endpoints::open_source;
+
 std::atomic<std::uint64_t> allocations{0};
-}
+}  // namespace
 
 // Inlined in part, the pair looks mismatched to the compiler.
 [[gnu::noinline]] void* operator new(std::size_t size) {
@@ -35,7 +40,7 @@ void expect_no_allocation(const std::string& options) {
   ASSERT_TRUE(sink->write(test::constants(720, 1)));
   const test::PlainSocket stranger;
   const std::uint16_t port = test::port_of(*source);
-  Sequence sequence;
+  base::Sequence sequence;
   Reception reception;
   std::uint64_t samples = 0, malformed = 0;
   auto params = test::params(0, 1);
