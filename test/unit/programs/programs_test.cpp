@@ -61,7 +61,7 @@ TEST_P(WriteFile, moves_as_the_fields_program_does) {
     const auto g_pose = camera::decode_pose(g), f_pose = camera::decode_pose(f);
     ASSERT_TRUE(g_pose && f_pose) << what;
     const auto printed = [](double a, double b) { return std::abs(a - b) <= 1e-7 + 6e-6 * std::abs(b); };
-    // An angle of 6 digits is told to 5e-5 degrees.
+    // An angle of 6 digits is exact to 5e-5 degrees.
     ASSERT_LE((g_pose->linear() - f_pose->linear()).cwiseAbs().maxCoeff(), 2e-6) << what;
     for (int axis = 0; axis < 3; ++axis)
       ASSERT_PRED2(printed, g_pose->translation()[axis], f_pose->translation()[axis]) << what;
