@@ -1,6 +1,5 @@
 #include "listen.h"
 
-#include <algorithm>
 #include <chrono>
 
 namespace trk_bridge::cli {
@@ -10,7 +9,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds for_ever{-1};
-// About three years: what is longer is as good as without end, and within what the clock can tell.
+// About three years: what is longer is as good as without end, and within the range of the clock.
 constexpr double longest_limit = 1e8;
 
 }  // namespace

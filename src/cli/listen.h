@@ -1,4 +1,4 @@
-// The loop in which a program takes records from a source.
+// The loop in which a program receives records from a source.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ class Listener {
   virtual ~Listener() = default;
   /// Whether to go on.
   virtual bool on_sample(const transport::Sample&) = 0;
-  /// One record was not sound.
+  /// One record was malformed.
   virtual void on_malformed(const transport::Reception&) = 0;
 };
 
 enum class Ending : std::uint8_t {
-  enough,   ///< the listener or the time limit said so
+  enough,   ///< the listener wants no more, or the time limit has passed
   stopped,  ///< by Source::stop
   ended,    ///< the source has no more
   failed,   ///< the source cannot go on

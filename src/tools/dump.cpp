@@ -4,8 +4,8 @@
 
 #include "cli/checked_output.h"
 #include "cli/listen.h"
-#include "record_text.h"
 #include "cli/tally.h"
+#include "record_text.h"
 
 namespace trk_bridge::tools {
 namespace {

@@ -1,4 +1,4 @@
-// What `trk monitor` knows of a source: statistics of every camera, told for one moment at a time.
+// What `trk monitor` knows of a source: the statistics of every camera at one moment.
 #pragma once
 
 #include <chrono>
@@ -10,21 +10,21 @@
 #include <vector>
 
 #include "arrival_window.h"
-#include "rest_window.h"
 #include "cli/tally.h"
+#include "rest_window.h"
 #include "trk_bridge/camera/camera.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::monitor {
 
-/// The last record that was not sound.
+/// The last malformed record.
 struct MalformedState {
   transport::Fault fault;
   transport::Sender sender;
   double age = 0;  ///< s
 };
 
-/// The latest parameters of a camera that were news, and what they mean.
+/// The latest parameters of a camera that were new, and what they mean.
 struct ParamsState {
   wire::CameraParams params;
   const char* origin = "";                  ///< how it was encoded
@@ -47,7 +47,7 @@ struct CameraState {
   Rest rest;
 };
 
-struct MonitorState {
+struct State {
   std::string source_name;
   transport::SourceStatistics source;
   std::optional<MalformedState> malformed;
@@ -55,16 +55,17 @@ struct MonitorState {
   std::uint64_t not_shown = 0;       ///< records of more cameras than cli::Tally::most_cameras
 };
 
-/// Not synchronised. Reads no clock: `now` is when a record was handed out or the state is asked for, and tells ages;
-/// rate, jitter and noise are of the records' own arrival, which is the kernel's for UDP and the time code for files.
-class MonitorModel {
+/// Not synchronised. Reads no clock: `now` is when a record was handed out or the state is asked for, and gives the
+/// ages. Rate, jitter and noise are computed from the arrival of the records, which is the kernel's time stamp for UDP
+/// and the time code for files.
+class Model {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   void add(const transport::Sample&, Time now);
   void add_malformed(const transport::Reception&, Time now);
 
-  MonitorState state(Time now, const transport::Source&) const;
+  State state(Time now, const transport::Source&) const;
   const cli::Tally& tally() const noexcept { return tally_; }
 
  private:
@@ -85,7 +86,7 @@ class MonitorModel {
     Time came;
   };
 
-  static void take(Track&, const transport::Sample&, const wire::CameraParams&, Time now);
+  static void add_params(Track&, const transport::Sample&, const wire::CameraParams&, Time now);
   CameraState state_of(const cli::Tally::Key&, const Track&, Time now) const;
 
   cli::Tally tally_;

@@ -1,4 +1,4 @@
-#include "monitor/monitor_view.h"
+#include "monitor/view.h"
 
 #include <string>
 
@@ -38,8 +38,8 @@ CameraState camera(std::uint32_t id) {
   return state;
 }
 
-MonitorState state_with(std::uint32_t cameras) {
-  MonitorState state;
+State state_with(std::uint32_t cameras) {
+  State state;
   state.source_name = "udp port 7000 on every interface";
   state.source.state = transport::SourceState::receiving;
   state.source.records = 12345;
@@ -47,8 +47,8 @@ MonitorState state_with(std::uint32_t cameras) {
   return state;
 }
 
-MonitorState troubled_state(std::uint32_t cameras) {
-  MonitorState state = state_with(cameras);
+State troubled_state(std::uint32_t cameras) {
+  State state = state_with(cameras);
   state.source.malformed = 3;
   state.source.refused = 1;
   state.source.kernel_drops = 2;
@@ -63,7 +63,7 @@ MonitorState troubled_state(std::uint32_t cameras) {
   return state;
 }
 
-std::vector<std::string> text_of(const MonitorState& state, Size size) {
+std::vector<std::string> text_of(const State& state, Size size) {
   std::vector<std::string> lines;
   for (const auto& line : screen_of(state, size)) {
     std::string text;
@@ -79,8 +79,8 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-TEST(MonitorView, NothingOverflowsWhateverTheSize) {
-  MonitorState strange = troubled_state(40);
+TEST(View, NothingOverflowsWhateverTheSize) {
+  State strange = troubled_state(40);
   strange.source_name = "file " + std::string(300, 'x') + "\xC3\xA4\x1B[31m";
   strange.source.state = transport::SourceState::failed;
   strange.source.error = "take.trk:57: field 9 is not a number";
@@ -90,7 +90,7 @@ TEST(MonitorView, NothingOverflowsWhateverTheSize) {
   strange.cameras[4].latest.reset();
   const auto few = state_with(2), none = state_with(0);
   for (const Size size : {Size{80, 24}, {40, 10}, {200, 60}, {1, 1}, {2, 50}, {7, 3}, {80, 1}, {80, 2}, {300, 300}}) {
-    for (const MonitorState& state : {strange, few, none}) {
+    for (const State& state : {strange, few, none}) {
       const auto lines = text_of(state, size);
       EXPECT_LE(lines.size(), size.height) << size.width << "x" << size.height;
       for (const auto& line : lines) {
@@ -103,7 +103,7 @@ TEST(MonitorView, NothingOverflowsWhateverTheSize) {
   EXPECT_THAT(screen_of(strange, {80, 0}), IsEmpty());
 }
 
-TEST(MonitorView, TwoCamerasInEightyByTwentyFour) {
+TEST(View, TwoCamerasInEightyByTwentyFour) {
   const auto lines = text_of(state_with(2), {80, 24});
   const auto first = std::vector<std::string>(lines.begin(), lines.begin() + 11);
   EXPECT_THAT(
@@ -119,7 +119,7 @@ TEST(MonitorView, TwoCamerasInEightyByTwentyFour) {
   EXPECT_THAT(joined(lines), HasSubstr("\n\nid 2  50.00 Hz"));
 }
 
-TEST(MonitorView, InFortyByTenTheImportantIsThere) {
+TEST(View, InFortyByTenTheImportantIsThere) {
   const auto lines = text_of(troubled_state(2), {40, 10});
   const std::string text = joined(lines);
   EXPECT_THAT(text, AllOf(HasSubstr("malformed 3"), HasSubstr("id 1  50.00 Hz"), HasSubstr("id 2  50.00 Hz"),
@@ -127,7 +127,7 @@ TEST(MonitorView, InFortyByTenTheImportantIsThere) {
   EXPECT_THAT(text, Not(HasSubstr("ASCII")));
 }
 
-TEST(MonitorView, ManyCamerasAreALineEachAndTheRestCounted) {
+TEST(View, ManyCamerasAreALineEachAndTheRestCounted) {
   auto lines = text_of(state_with(30), {200, 24});
   ASSERT_THAT(lines, SizeIs(24));
   EXPECT_THAT(lines[2], StartsWith("id 1 "));
@@ -140,7 +140,7 @@ TEST(MonitorView, ManyCamerasAreALineEachAndTheRestCounted) {
   EXPECT_THAT(lines[59], Not(IsEmpty()));
 }
 
-TEST(MonitorView, TellsTrouble) {
+TEST(View, TellsTrouble) {
   auto state = troubled_state(2);
   state.cameras[0].counts.lost = 4;
   state.cameras[0].counts.duplicates = 2;
@@ -162,7 +162,7 @@ TEST(MonitorView, TellsTrouble) {
   EXPECT_THAT(text, HasSubstr("shift_on_chip and unknown bits"));
 }
 
-TEST(MonitorView, TroubleStandsOut) {
+TEST(View, TroubleStandsOut) {
   auto state = troubled_state(1);
   state.cameras[0].counts.lost = 4;
   std::vector<std::string> warnings;
@@ -176,8 +176,8 @@ TEST(MonitorView, TroubleStandsOut) {
                           "from 192.0.2.7:50123:", "field 9 is not a number", "NO CONSTANTS have come", "lost 4"));
 }
 
-TEST(MonitorView, BeforeTheFirstRecordItSaysWhatItWaitsFor) {
-  MonitorState state;
+TEST(View, BeforeTheFirstRecordItSaysWhatItWaitsFor) {
+  State state;
   state.source_name = "shm slot 7";
   state.source.waiting_for = "slot 7: no segment";
   EXPECT_EQ(text_of(state, {80, 24}).front(), "trk monitor  waiting for slot 7: no segment  q: quit");
@@ -185,14 +185,14 @@ TEST(MonitorView, BeforeTheFirstRecordItSaysWhatItWaitsFor) {
               ElementsAre("trk monitor  waiting for slot 7: no segment  records 0  malformed 0  shm slot 7"));
 }
 
-TEST(MonitorView, PlainLinesAreOneACamera) {
+TEST(View, PlainLinesAreOneACamera) {
   const auto lines = plain_lines_of(state_with(2), 1);
   ASSERT_THAT(lines, SizeIs(2));
   EXPECT_THAT(lines[1], AllOf(StartsWith("id 2  50.00 Hz  192.0.2.7:50123  counter 1234567"),
                               HasSubstr("  x   1.5000  y  -2.0000"), HasSubstr("chip 8.800 x 6.600 mm")));
 }
 
-TEST(MonitorView, PlainLinesTellANewMalformedRecordOnce) {
+TEST(View, PlainLinesTellANewMalformedRecordOnce) {
   auto state = troubled_state(1);
   EXPECT_THAT(plain_lines_of(state, 1), SizeIs(1));
   state.malformed->age = 0.9;

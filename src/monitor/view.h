@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "monitor_model.h"
+#include "model.h"
 
 namespace trk_bridge::monitor {
 
@@ -27,10 +27,10 @@ struct Size {
 /// At most `height` lines of at most `width` characters. The source comes first, in a third of them where cameras
 /// follow, then the cameras, all with the same share of the lines that are left and what matters most first in it:
 /// where there is no room, the rest is left out, and of cameras said how many.
-std::vector<Line> screen_of(const MonitorState&, Size);
+std::vector<Line> screen_of(const State&, Size);
 
 /// A line a camera with everything that is known of it; before them one about the source when there is no camera yet
 /// or a malformed record came within the last `period` seconds.
-std::vector<std::string> plain_lines_of(const MonitorState&, double period);
+std::vector<std::string> plain_lines_of(const State&, double period);
 
 }  // namespace trk_bridge::monitor

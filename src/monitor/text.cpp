@@ -1,4 +1,4 @@
-#include "monitor_text.h"
+#include "text.h"
 
 #include <array>
 #include <cmath>
@@ -156,7 +156,7 @@ Group constants(const wire::CameraConstants& c) {
 
 }  // namespace
 
-std::vector<Group> groups_of(const MonitorState& state) {
+std::vector<Group> groups_of(const State& state) {
   Group title{{{"trk monitor", Style::heading}, state_of(state.source)}};
   Group counts{{{"records " + std::to_string(state.source.records)}, trouble("malformed", state.source.malformed)}};
   add_if_any(counts, "refused", state.source.refused);

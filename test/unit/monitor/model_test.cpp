@@ -1,4 +1,4 @@
-#include "monitor/monitor_model.h"
+#include "monitor/model.h"
 
 #include <cmath>
 
@@ -14,7 +14,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-class MonitorModelTest : public testing::Test {
+class ModelTest : public testing::Test {
  protected:
   /// A sample that arrives, and is handed out, `at` after the beginning.
   void add(const wire::Record& record, milliseconds at, std::uint32_t port = 5000) {
@@ -31,21 +31,21 @@ class MonitorModelTest : public testing::Test {
     from.number = port;
     return from;
   }
-  MonitorState state(milliseconds at) { return model.state(begin + at, *feed.source()); }
+  State state(milliseconds at) { return model.state(begin + at, *feed.source()); }
 
-  MonitorModel model;
+  Model model;
   test::MemoryFeed feed;
-  const MonitorModel::Time begin{std::chrono::hours(5)};
+  const Model::Time begin{std::chrono::hours(5)};
 };
 
-TEST_F(MonitorModelTest, KnowsNothingAtFirst) {
+TEST_F(ModelTest, KnowsNothingAtFirst) {
   const auto s = state(milliseconds(0));
   EXPECT_TRUE(s.cameras.empty());
   EXPECT_FALSE(s.malformed);
   EXPECT_EQ(s.source_name, feed.source()->name());
 }
 
-TEST_F(MonitorModelTest, TellsRateCounterLossAndAge) {
+TEST_F(ModelTest, TellsRateCounterLossAndAge) {
   for (const std::uint64_t counter : {100, 101, 103, 102, 103, 104}) {
     add(test::params(counter, 7), milliseconds(20 * static_cast<int>(counter - 100)));
   }
@@ -64,7 +64,7 @@ TEST_F(MonitorModelTest, TellsRateCounterLossAndAge) {
   EXPECT_EQ(camera.jitter.value().worst, 20'000'000);
 }
 
-TEST_F(MonitorModelTest, ACounterThatStandsIsNoNews) {
+TEST_F(ModelTest, AnEqualCounterIsNotNew) {
   add(test::params(5), milliseconds(0));
   for (int at = 20; at <= 2000; at += 20) add(test::params(5), milliseconds(at));
   const auto s = state(milliseconds(2000));
@@ -72,7 +72,7 @@ TEST_F(MonitorModelTest, ACounterThatStandsIsNoNews) {
   EXPECT_TRUE(s.cameras.front().latest->is_silent);
 }
 
-TEST_F(MonitorModelTest, SilenceIsMoreThanASecondAndThreeIntervals) {
+TEST_F(ModelTest, SilenceIsMoreThanASecondAndThreeIntervals) {
   add(test::params(5), milliseconds(0));
   EXPECT_FALSE(state(milliseconds(1000)).cameras.front().latest->is_silent);
   EXPECT_TRUE(state(milliseconds(1001)).cameras.front().latest->is_silent);
@@ -82,7 +82,7 @@ TEST_F(MonitorModelTest, SilenceIsMoreThanASecondAndThreeIntervals) {
   EXPECT_TRUE(state(milliseconds(10'100)).cameras.front().latest->is_silent);
 }
 
-TEST_F(MonitorModelTest, TellsPoseAndLensInCanonicalTerms) {
+TEST_F(ModelTest, TellsPoseAndLensInCanonicalTerms) {
   auto params = test::params(1);
   params.format = wire::euler | wire::field_of_view;
   params.fov = 40;
@@ -107,7 +107,7 @@ TEST_F(MonitorModelTest, TellsPoseAndLensInCanonicalTerms) {
   EXPECT_NEAR(*latest.horizontal_angle, 40, 1e-9);
 }
 
-TEST_F(MonitorModelTest, NoPoseWhereTheMatrixIsNoRotation) {
+TEST_F(ModelTest, NoPoseWhereTheMatrixIsNoRotation) {
   wire::CameraParams params;
   params.fov = 10;
   add(params, milliseconds(0));
@@ -116,7 +116,7 @@ TEST_F(MonitorModelTest, NoPoseWhereTheMatrixIsNoRotation) {
   EXPECT_EQ(s.cameras.front().latest->pose.error(), camera::CameraReason::not_a_rotation);
 }
 
-TEST_F(MonitorModelTest, CamerasThatSendComeFirst) {
+TEST_F(ModelTest, CamerasThatSendComeFirst) {
   add(test::params(1, 1), milliseconds(0));
   add(test::params(1, 9), milliseconds(2000));
   add(test::params(1, 4), milliseconds(2000), 6000);
@@ -129,7 +129,7 @@ TEST_F(MonitorModelTest, CamerasThatSendComeFirst) {
                                           testing::Pair(1, 5000), testing::Pair(2, 5000)));
 }
 
-TEST_F(MonitorModelTest, RemembersTheLastMalformedRecord) {
+TEST_F(ModelTest, RemembersTheLastMalformedRecord) {
   transport::Reception reception;
   reception.fault = wire::Fault{wire::Reason::not_a_number, 9, true};
   reception.sample.sender = sender(6000);
@@ -141,7 +141,7 @@ TEST_F(MonitorModelTest, RemembersTheLastMalformedRecord) {
   EXPECT_DOUBLE_EQ(s.malformed->age, 1.5);
 }
 
-TEST_F(MonitorModelTest, ACameraAtRestHasItsNoise) {
+TEST_F(ModelTest, ACameraAtRestHasItsNoise) {
   for (int n = 0; n <= 200; ++n) {
     auto params = test::params(static_cast<std::uint64_t>(n));
     params.euler.z += n % 2 * 0.002;
@@ -153,7 +153,7 @@ TEST_F(MonitorModelTest, ACameraAtRestHasItsNoise) {
   EXPECT_NEAR(rest.deviation[3], 0, 1e-9);
 }
 
-TEST_F(MonitorModelTest, MoreCamerasThanAnyStudioHasAreCountedOnly) {
+TEST_F(ModelTest, MoreCamerasThanAnyStudioHasAreCountedOnly) {
   for (std::uint32_t id = 1; id <= 260; ++id) add(test::params(1, id), milliseconds(0));
   const auto s = state(milliseconds(0));
   EXPECT_EQ(s.cameras.size(), cli::Tally::most_cameras);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "monitor_view.h"
+#include "view.h"
 
 namespace trk_bridge::monitor {
 
@@ -15,7 +15,7 @@ struct Group {
 };
 
 /// What matters most first.
-std::vector<Group> groups_of(const MonitorState&);
+std::vector<Group> groups_of(const State&);
 std::vector<Group> groups_of(const CameraState&);
 
 }  // namespace trk_bridge::monitor

@@ -1,10 +1,10 @@
-#include "monitor_view.h"
+#include "view.h"
 
 #include <algorithm>
 #include <string_view>
 #include <utility>
 
-#include "monitor_text.h"
+#include "text.h"
 
 namespace trk_bridge::monitor {
 namespace {
@@ -28,7 +28,7 @@ class Flow {
     indent_ = std::min(indent, width_ / 2);
     for (const auto& item : group.items) add(printable(item.text), item.style, group.gap);
   }
-  std::vector<Line> take() { return std::move(lines_); }
+  std::vector<Line> finish() { return std::move(lines_); }
 
  private:
   void begin_line(std::size_t indent) {
@@ -73,19 +73,19 @@ std::vector<Line> lines_of(const CameraState& camera, std::size_t width) {
     flow.add(group, indent, 2 * camera_indent);
     indent = camera_indent;
   }
-  return flow.take();
+  return flow.finish();
 }
 
-std::vector<Line> lines_of(const MonitorState& state, std::size_t width) {
+std::vector<Line> lines_of(const State& state, std::size_t width) {
   Flow flow(width);
   auto groups = groups_of(state);
   groups.front().items.push_back({"q: quit", Style::faint});
   for (const auto& group : groups) flow.add(group, 0, camera_indent);
-  return flow.take();
+  return flow.finish();
 }
 
 /// Every camera's lines within `room`; blank lines between them where there is room for all.
-void add_cameras(const MonitorState& state, std::size_t width, std::size_t room, std::vector<Line>& screen) {
+void add_cameras(const State& state, std::size_t width, std::size_t room, std::vector<Line>& screen) {
   std::vector<std::vector<Line>> blocks;
   std::size_t wanted = 0;
   for (const auto& camera : state.cameras) {
@@ -105,7 +105,7 @@ void add_cameras(const MonitorState& state, std::size_t width, std::size_t room,
   if (shown == blocks.size()) return;
   Flow flow(width);
   flow.add({{{std::to_string(blocks.size() - shown) + " more", Style::warning}}}, 0, 0);
-  screen.push_back(flow.take().front());
+  screen.push_back(flow.finish().front());
 }
 
 std::string joined(const std::vector<Group>& groups) {
@@ -121,7 +121,7 @@ std::string joined(const std::vector<Group>& groups) {
 
 }  // namespace
 
-std::vector<Line> screen_of(const MonitorState& state, Size size) {
+std::vector<Line> screen_of(const State& state, Size size) {
   if (size.width == 0 || size.height == 0) return {};
   auto screen = lines_of(state, size.width);
   if (!state.cameras.empty()) screen.resize(std::min(screen.size(), std::max<std::size_t>(1, size.height / 3)));
@@ -132,10 +132,10 @@ std::vector<Line> screen_of(const MonitorState& state, Size size) {
   return screen;
 }
 
-std::vector<std::string> plain_lines_of(const MonitorState& state, double period) {
+std::vector<std::string> plain_lines_of(const State& state, double period) {
   std::vector<std::string> lines;
-  const bool has_news = state.malformed && state.malformed->age < period;
-  if (state.cameras.empty() || has_news) lines.push_back(joined(groups_of(state)));
+  const bool is_new_fault = state.malformed && state.malformed->age < period;
+  if (state.cameras.empty() || is_new_fault) lines.push_back(joined(groups_of(state)));
   for (const auto& camera : state.cameras) lines.push_back(joined(groups_of(camera)));
   return lines;
 }

@@ -1,9 +1,9 @@
-#include "monitor_model.h"
+#include "model.h"
 
 #include <algorithm>
 #include <variant>
 
-#include "trk_bridge/wire/format.h"
+#include "trk_bridge/camera/image.h"
 
 namespace trk_bridge::monitor {
 namespace {
@@ -11,21 +11,17 @@ namespace {
 constexpr double silent_after = 1.0;            // s
 constexpr double silent_after_intervals = 3.0;  // for what comes more slowly than three times a second
 
-double seconds_between(MonitorModel::Time from, MonitorModel::Time to) {
-  return std::chrono::duration<double>(to - from).count();
-}
+double seconds_between(Model::Time from, Model::Time to) { return std::chrono::duration<double>(to - from).count(); }
 
 camera::Result<double> horizontal_angle(const camera::Lens& lens, const wire::CameraConstants* constants) {
-  camera::Camera camera;
-  camera.lens = lens;
-  const auto told = camera::encode(camera, wire::euler | wire::field_of_view, constants);
-  if (!told) return tl::unexpected(told.error());
-  return told->fov;
+  if (constants == nullptr) return tl::unexpected(camera::CameraReason::constants_needed);
+  if (const auto sound = camera::check(*constants); !sound) return tl::unexpected(sound.error());
+  return camera::field_of_view(lens.image_distance, constants->chip_width);
 }
 
 }  // namespace
 
-void MonitorModel::add(const transport::Sample& sample, Time now) {
+void Model::add(const transport::Sample& sample, Time now) {
   const auto order = tally_.add(sample);
   const cli::Tally::Key key{std::visit([](const auto& record) { return record.id; }, sample.record), sample.sender};
   auto track = tracks_.find(key);
@@ -39,11 +35,11 @@ void MonitorModel::add(const transport::Sample& sample, Time now) {
   if (const auto* constants = std::get_if<wire::CameraConstants>(&sample.record)) {
     track->second.constants = *constants;
   } else if (order && base::is_new(*order)) {
-    take(track->second, sample, std::get<wire::CameraParams>(sample.record), now);
+    add_params(track->second, sample, std::get<wire::CameraParams>(sample.record), now);
   }
 }
 
-void MonitorModel::take(Track& track, const transport::Sample& sample, const wire::CameraParams& params, Time now) {
+void Model::add_params(Track& track, const transport::Sample& sample, const wire::CameraParams& params, Time now) {
   track.latest = Latest{params, sample.origin, now};
   track.arrivals.add(sample.arrival);
   if (const auto pose = camera::decode_pose(params)) {
@@ -53,12 +49,12 @@ void MonitorModel::take(Track& track, const transport::Sample& sample, const wir
   }
 }
 
-void MonitorModel::add_malformed(const transport::Reception& reception, Time now) {
+void Model::add_malformed(const transport::Reception& reception, Time now) {
   malformed_ = Malformed{reception.fault, reception.sample.sender, now};
 }
 
-MonitorState MonitorModel::state(Time now, const transport::Source& source) const {
-  MonitorState state;
+State Model::state(Time now, const transport::Source& source) const {
+  State state;
   state.source_name = source.name();
   state.source = source.statistics();
   state.not_shown = not_shown_;
@@ -71,7 +67,7 @@ MonitorState MonitorModel::state(Time now, const transport::Source& source) cons
   return state;
 }
 
-CameraState MonitorModel::state_of(const cli::Tally::Key& key, const Track& track, Time now) const {
+CameraState Model::state_of(const cli::Tally::Key& key, const Track& track, Time now) const {
   CameraState state;
   state.key = key;
   state.constants = track.constants;
@@ -84,7 +80,7 @@ CameraState MonitorModel::state_of(const cli::Tally::Key& key, const Track& trac
   const auto* constants = track.constants ? &*track.constants : nullptr;
   const auto& params = track.latest->params;
   const auto lens = camera::decode_lens(params, constants);
-  const auto angle = lens ? horizontal_angle(*lens, constants) : tl::unexpected(lens.error());
+  const auto angle = lens.and_then([&](const camera::Lens& known) { return horizontal_angle(known, constants); });
   const double age = seconds_between(track.latest->came, now);
   const double interval = state.jitter ? static_cast<double>(state.jitter->interval) * 1e-9 : 0;
   state.latest = ParamsState{params,
