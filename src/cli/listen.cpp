@@ -1,6 +1,7 @@
 #include "listen.h"
 
 #include <chrono>
+#include <ostream>
 
 namespace trk_bridge::cli {
 namespace {
@@ -40,6 +41,13 @@ Ending listen(transport::Source& source, Listener& listener, std::optional<doubl
         return Ending::failed;
     }
   }
+}
+
+ExitCode report_end(const Tally& tally, const transport::SourceStatistics& source, Ending ending, std::ostream& err) {
+  tally.summarise(source, err);
+  if (ending != Ending::failed) return exit_good;
+  err << "trk: error: " << source.error << '\n';
+  return exit_failed;
 }
 
 }  // namespace trk_bridge::cli

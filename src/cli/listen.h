@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 
+#include "exit_code.h"
+#include "tally.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::cli {
@@ -27,5 +30,8 @@ enum class Ending : std::uint8_t {
 
 /// Until the source ends, is stopped or fails, the listener has enough, or `seconds` (wall time) have passed.
 Ending listen(transport::Source&, Listener&, std::optional<double> seconds = std::nullopt);
+
+/// The end of a program that has listened: the summary on `err`, and then the source's error where it failed.
+ExitCode report_end(const Tally&, const transport::SourceStatistics&, Ending, std::ostream& err);
 
 }  // namespace trk_bridge::cli

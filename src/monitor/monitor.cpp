@@ -48,11 +48,7 @@ class Watch final : public cli::Listener {
   State state() const { return model_.state(Clock::now(), source_); }
 
   cli::ExitCode finish(std::ostream& err) const {
-    const auto statistics = source_.statistics();
-    model_.tally().summarise(statistics, err);
-    if (ending_ != cli::Ending::failed) return cli::exit_good;
-    err << "trk: error: " << statistics.error << '\n';
-    return cli::exit_failed;
+    return cli::report_end(model_.tally(), source_.statistics(), ending_, err);
   }
 
  private:
