@@ -81,7 +81,7 @@ class DatagramSink final : public Sink {
   /// The constants of one camera.
   struct Remembered {
     wire::CameraConstants constants;
-    steady_clock::time_point last_sent{};
+    std::optional<steady_clock::time_point> last_sent;  // none: these have not gone out yet
   };
 
   Written put(const wire::CameraParams& params) override;
@@ -129,7 +129,8 @@ Written DatagramSink::put(const wire::CameraParams& params) {
   if (const auto found = remembered_.find(params.id); found != remembered_.end()) {
     Remembered& remembered = found->second;
     const auto now = steady_clock::now();
-    if (period_ > steady_clock::duration::zero() && now - remembered.last_sent >= period_) {
+    const bool is_due = !remembered.last_sent || now - *remembered.last_sent >= period_;
+    if (period_ > steady_clock::duration::zero() && is_due) {
       constants_sent = send(remembered.constants);
       if (constants_sent) {
         remembered.last_sent = now;
@@ -147,6 +148,7 @@ Written DatagramSink::put(const wire::CameraConstants& constants) {
   if (!sent && sent.error().reason == SinkReason::not_encodable) return sent;
   Remembered& remembered = remembered_[constants.id];
   remembered.constants = constants;
+  remembered.last_sent.reset();
   if (sent) remembered.last_sent = steady_clock::now();
   return sent;
 }

@@ -2,38 +2,51 @@
 
 #include <array>
 #include <cstddef>
-#include <string>
+#include <string_view>
 
 namespace trk_bridge::transport {
 namespace {
 
 constexpr std::size_t generations = 2, abis = 3, orders = 2;
 
-std::size_t index_of(const wire::Layout& layout, bool guessed) noexcept {
+constexpr std::size_t index_of(const wire::Layout& layout, bool guessed) noexcept {
   std::size_t index = static_cast<std::size_t>(layout.generation);
   index = index * abis + static_cast<std::size_t>(layout.abi);
   index = index * orders + static_cast<std::size_t>(layout.byte_order);
   return index * 2 + (guessed ? 1 : 0);
 }
 
-using Texts = std::array<std::string, generations * abis * orders * 2>;
+/// Ends with a NUL.
+struct Text {
+  std::array<char, 48> characters{};
+  std::size_t size = 0;
 
-/// As `layout=…` of a URL has it.
-std::string word_of(const wire::Layout& layout) {
-  std::string word = layout.generation == wire::Generation::document ? "document" : "identified";
-  word += layout.abi == wire::Abi::lp64 ? "_lp64" : layout.abi == wire::Abi::llp64 ? "_llp64" : "_i386";
-  return layout.byte_order == wire::ByteOrder::big ? word + "_be" : word;
+  constexpr void add(std::string_view more) noexcept {
+    for (const char c : more) characters[size++] = c;
+  }
+};
+
+/// The layout as `layout=…` of a URL has it.
+constexpr Text text_of(const wire::Layout& layout, bool guessed) noexcept {
+  Text text;
+  text.add("binary ");
+  text.add(layout.generation == wire::Generation::document ? "document" : "identified");
+  text.add(layout.abi == wire::Abi::lp64 ? "_lp64" : layout.abi == wire::Abi::llp64 ? "_llp64" : "_i386");
+  if (layout.byte_order == wire::ByteOrder::big) text.add("_be");
+  if (guessed) text.add(", layout guessed");
+  return text;
 }
 
-Texts all_texts() {
+using Texts = std::array<Text, generations * abis * orders * 2>;
+
+constexpr Texts all_texts() noexcept {
   Texts texts;
   for (const auto generation : {wire::Generation::document, wire::Generation::identified}) {
     for (const auto abi : {wire::Abi::lp64, wire::Abi::llp64, wire::Abi::i386}) {
       for (const auto order : {wire::ByteOrder::little, wire::ByteOrder::big}) {
         for (const bool guessed : {false, true}) {
           const wire::Layout layout{generation, abi, order};
-          texts[index_of(layout, guessed)] =
-              "binary " + word_of(layout) + (guessed ? ", layout guessed" : "");
+          texts[index_of(layout, guessed)] = text_of(layout, guessed);
         }
       }
     }
@@ -41,12 +54,14 @@ Texts all_texts() {
   return texts;
 }
 
+// Made by the compiler, so that the first sample allocates nothing either.
+constexpr Texts texts = all_texts();
+
 }  // namespace
 
 const char* origin_of(const wire::WireForm& form, bool layout_guessed) noexcept {
   if (form.encoding == wire::Encoding::ascii) return "ASCII";
-  static const Texts texts = all_texts();
-  return texts[index_of(form.layout, layout_guessed)].c_str();
+  return texts[index_of(form.layout, layout_guessed)].characters.data();
 }
 
 }  // namespace trk_bridge::transport

@@ -1,3 +1,5 @@
+#include "trk_bridge/base/time_code.h"
+
 #include <string>
 
 #include <gmock/gmock.h>

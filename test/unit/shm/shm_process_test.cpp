@@ -177,7 +177,7 @@ TEST(ShmProcesses, writers_that_are_killed_leave_whole_records_and_a_usable_slot
     const auto end = Clock::now() + deadline;
     while (received < enough && Clock::now() < end) {
       const Event event = source->receive(into, 10ms);
-      ASSERT_NE(event, Event::malformed) << wire::describe(into.fault);
+      ASSERT_NE(event, Event::malformed) << describe(into.fault);
       if (event != Event::sample) continue;
       ASSERT_TRUE(is_whole(std::get<wire::CameraParams>(into.sample.record)));
       ++received;

@@ -224,15 +224,18 @@ TEST_F(Shm, a_segment_removed_and_made_anew_is_followed) {
 }
 
 TEST_F(Shm, a_slot_that_means_another_segment_is_followed_though_the_old_one_lives) {
+  // The file alone goes: its old segment stays, out of everybody's reach. For as long as it lives, a spare keeps its
+  // inode, and so its key, from any other slot.
+  struct Spare {
+    const std::string path;
+    ~Spare() { ::unlink(path.c_str()); }
+  } const spare{slot.path() + ".spare"};
   const auto sink = open_sink(url());
   const auto source = open_source(url());
   ASSERT_TRUE(sink->write(params(1)));
   ASSERT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 1); }));
-  // The file alone goes: its old segment stays, out of everybody's reach. A spare keeps the inode from coming again.
-  const std::string spare = slot.path() + ".spare";
-  ASSERT_EQ(::rename(slot.path().c_str(), spare.c_str()), 0);
+  ASSERT_EQ(::rename(slot.path().c_str(), spare.path.c_str()), 0);
   const auto second = open_sink(url());
-  ::unlink(spare.c_str());
   ASSERT_TRUE(idle_until(*source, [&] { return source->statistics().reattached == 1; }));
   ASSERT_TRUE(second->write(params(2)));
   EXPECT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 2); }));

@@ -14,12 +14,8 @@
 #include "udp.h"
 
 namespace {
-
-using endpoints::open_sink;
-using endpoints::open_source;
-
 std::atomic<std::uint64_t> allocations{0};
-}  // namespace
+}
 
 // Inlined in part, the pair looks mismatched to the compiler.
 [[gnu::noinline]] void* operator new(std::size_t size) {
@@ -32,6 +28,11 @@ std::atomic<std::uint64_t> allocations{0};
 
 namespace trk_bridge::trk {
 namespace {
+
+using endpoints::open_sink;
+using endpoints::open_source;
+using transport::Event;
+using transport::Reception;
 
 void expect_no_allocation(const std::string& options) {
   const auto source = open_source("udp://127.0.0.1:0");

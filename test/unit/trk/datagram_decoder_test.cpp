@@ -26,12 +26,13 @@ Sender sender(std::uint32_t port) {
 constexpr wire::WireForm document{wire::Encoding::binary, {wire::Generation::document}};
 constexpr wire::WireForm identified{wire::Encoding::binary, {wire::Generation::identified}};
 
-/// Parameters that read alike in both generations.
+/// A matrix that both generations read well: the id of one is the format of the other.
 std::string ambiguous() {
   wire::CameraParams p;
   p.matrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 2, 1, 1};
+  p.id = 2;
   p.counter = 5;
-  return test::datagram(p, document);
+  return test::datagram(p, identified);
 }
 
 /// The first of what the datagram gives; all of what it may give is one.
