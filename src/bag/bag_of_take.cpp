@@ -8,8 +8,10 @@
 #include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "bag_take.h"
-#include "bag_timing.h"
+#include "base/time_text.h"
+#include "cli/number_text.h"
+#include "convert.h"
+#include "timing.h"
 #include "ros/trk_to_ros_parameters.h"
 #include "ros/camera_pipeline.h"
 #include "trk_bridge/ros/frames.h"
@@ -81,7 +83,7 @@ class Recording {
  public:
   Recording(const std::string& path, const TakeToBagOptions& options, std::optional<std::int64_t> zero)
       : caller_("/" + options.camera + "/trk_to_ros") {
-    extra_[field_rate_key] = rate_text(options.field_rate);
+    extra_[field_rate_key] = cli::number_text(options.field_rate);
     if (zero) extra_[time_code_zero_key] = std::to_string(*zero);
     bag_.open(path, rosbag::bagmode::Write);
     bag_.setCompression(options.compression == "bz2"   ? rosbag::compression::BZ2
@@ -195,7 +197,7 @@ void bag_of_take(const std::string& take_path, const std::string& bag_path, cons
     }
     tell(pipeline.statistics(), err);
     err << "trk: " << bag_path << ": " << pipeline.statistics().sequence.accepted << " fields of camera "
-        << options.camera << ", from " << stamp_text(schedule.at(0)) << " at " << rate_text(options.field_rate)
+        << options.camera << ", from " << base::seconds_text(schedule.at(0)) << " at " << cli::number_text(options.field_rate)
         << " fields a second\n";
   } catch (const BagError& error) {
     throw BagError(take_path + ": " + error.what());

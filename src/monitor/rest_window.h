@@ -12,7 +12,7 @@ namespace trk_bridge::monitor {
 using PoseNumbers = std::array<double, 6>;
 
 enum class Motion : std::uint8_t {
-  unknown,  ///< not enough poses within the window to tell
+  unknown,  ///< not enough poses within the window
   moving,
   still,
 };

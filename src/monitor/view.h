@@ -26,7 +26,7 @@ struct Size {
 
 /// At most `height` lines of at most `width` characters. The source comes first, in a third of them where cameras
 /// follow, then the cameras, all with the same share of the lines that are left and what matters most first in it:
-/// where there is no room, the rest is left out, and of cameras said how many.
+/// where there is no room, the rest is left out, and the number of cameras left out is shown.
 std::vector<Line> screen_of(const State&, Size);
 
 /// A line a camera with everything that is known of it; before them one about the source when there is no camera yet

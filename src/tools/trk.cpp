@@ -18,7 +18,7 @@
 #include "preset_list.h"
 #include "relay.h"
 #ifdef TRK_BRIDGE_WITH_BAG
-#include "bag/bag_command.h"
+#include "bag/command.h"
 #endif
 
 namespace trk_bridge::tools {
@@ -184,7 +184,7 @@ int main(int argc, char** argv) {
   MonitorCommand monitor_command(app);
   PresetsCommand presets_command(app);
 #ifdef TRK_BRIDGE_WITH_BAG
-  bag::BagCommand bag_command(app);
+  bag::Command bag_command(app);
 #else
   app.footer("Built without ROS: trk bag is not part of it.");
 #endif

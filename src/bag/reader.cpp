@@ -1,17 +1,17 @@
-#include "bag_file.h"
+#include "reader.h"
 
 #include <utility>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
-#include "bag_scan.h"
+#include "scan.h"
 
 namespace trk_bridge::bag {
 namespace {
 
-BagConnection connection_of(const rosbag::ConnectionInfo& info) {
-  BagConnection connection;
+Connection connection_of(const rosbag::ConnectionInfo& info) {
+  Connection connection;
   connection.id = info.id;
   connection.topic = info.topic;
   connection.type = info.datatype;
@@ -22,19 +22,19 @@ BagConnection connection_of(const rosbag::ConnectionInfo& info) {
 
 }  // namespace
 
-BagFile::BagFile(std::string path, cli::LongRun& run) : path_(std::move(path)), run_(run) {
+Reader::Reader(std::string path, cli::LongRun& run) : path_(std::move(path)), run_(run) {
   run_.begin("reading " + path_);
   if (open()) return;
   bag_.reset();
   connections_.clear();
   const std::string end = scan_bag(
-      path_, [this](const BagConnection& met) { connections_.push_back(met); }, {}, run_);
+      path_, [this](const Connection& found) { connections_.push_back(found); }, {}, run_);
   damage_ += "; " + end;
 }
 
-BagFile::~BagFile() = default;
+Reader::~Reader() = default;
 
-bool BagFile::open() {
+bool Reader::open() {
   try {
     bag_ = std::make_unique<rosbag::Bag>(path_, rosbag::bagmode::Read);
     rosbag::View view(*bag_);
@@ -48,12 +48,12 @@ bool BagFile::open() {
   return false;
 }
 
-void BagFile::read(const Filter& wanted, const Visitor& visit) {
+void Reader::read(const Filter& wanted, const Visitor& visit) {
   run_.begin("reading " + path_);
   if (!bag_) {
     scan_bag(
-        path_, [](const BagConnection&) {},
-        [&](const BagMessage& message) {
+        path_, [](const Connection&) {},
+        [&](const RawMessage& message) {
           if (wanted(message.connection)) visit(message);
         },
         run_);
@@ -66,12 +66,12 @@ void BagFile::read(const Filter& wanted, const Visitor& visit) {
   }
 }
 
-void BagFile::read_indexed(const Filter& wanted, const Visitor& visit) {
-  std::map<std::uint32_t, const BagConnection*> by_id;
+void Reader::read_indexed(const Filter& wanted, const Visitor& visit) {
+  std::map<std::uint32_t, const Connection*> by_id;
   for (const auto& connection : connections_) by_id[connection.id] = &connection;
   rosbag::View view(*bag_, [&](const rosbag::ConnectionInfo* info) { return wanted(*by_id.at(info->id)); });
-  // A message tells its connection by the header that both share.
-  std::map<const ::ros::M_string*, const BagConnection*> by_header;
+  // A message and its connection share one header.
+  std::map<const ::ros::M_string*, const Connection*> by_header;
   for (const auto* info : view.getConnections()) by_header[info->header.get()] = by_id.at(info->id);
   const double total = view.size();
   double done = 0;

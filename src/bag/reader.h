@@ -27,27 +27,27 @@ class BagError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-struct BagConnection {
+struct Connection {
   std::uint32_t id = 0;
   std::string topic, type, md5sum;
   std::map<std::string, std::string> header;  ///< of the publisher, with whatever else the bag's writer put there
 };
 
 /// Valid while it is visited.
-struct BagMessage {
-  const BagConnection& connection;
+struct RawMessage {
+  const Connection& connection;
   const std::vector<std::uint8_t>& bytes;  ///< serialised
 };
 
 /// Whether the connection carries this message, as it was when this program was built.
 template <typename Message>
-bool carries(const BagConnection& connection) {
+bool carries(const Connection& connection) {
   return connection.md5sum == ::ros::message_traits::md5sum<Message>();
 }
 
 /// Throws BagError when the bytes are not exactly one message.
 template <typename Message>
-Message message_of(const BagMessage& message) {
+Message message_of(const RawMessage& message) {
   Message result;
   // The stream reads only, but asks for bytes that may be written.
   ::ros::serialization::IStream stream(const_cast<std::uint8_t*>(message.bytes.data()),
@@ -61,21 +61,27 @@ Message message_of(const BagMessage& message) {
   return result;
 }
 
+/// Of a message's header, ns since 1970.
+template <typename Message>
+std::int64_t stamp_of(const Message& message) {
+  return static_cast<std::int64_t>(message.header.stamp.toNSec());
+}
+
 /// Open for reading; the file is never written. Not synchronised.
-class BagFile {
+class Reader {
  public:
   /// Throws BagError, and Interrupted.
-  BagFile(std::string path, cli::LongRun&);
-  ~BagFile();
-  BagFile(const BagFile&) = delete;
-  BagFile& operator=(const BagFile&) = delete;
+  Reader(std::string path, cli::LongRun&);
+  ~Reader();
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
 
-  const std::vector<BagConnection>& connections() const noexcept { return connections_; }
+  const std::vector<Connection>& connections() const noexcept { return connections_; }
   /// Why it is not whole; empty when it is.
   const std::string& damage() const noexcept { return damage_; }
 
-  using Filter = std::function<bool(const BagConnection&)>;
-  using Visitor = std::function<void(const BagMessage&)>;
+  using Filter = std::function<bool(const Connection&)>;
+  using Visitor = std::function<void(const RawMessage&)>;
   /// Visits the messages of the connections that `wanted` is true for, in the order of their recording. Throws
   /// BagError, and Interrupted.
   void read(const Filter& wanted, const Visitor& visit);
@@ -87,7 +93,7 @@ class BagFile {
   std::string path_;
   cli::LongRun& run_;
   std::unique_ptr<rosbag::Bag> bag_;  // none when it has to be scanned
-  std::vector<BagConnection> connections_;
+  std::vector<Connection> connections_;
   std::string damage_;
 };
 

@@ -1,21 +1,21 @@
-// Which cameras a bag has, and which of them is meant.
+// The cameras of a bag, and the choice of one.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "bag_file.h"
+#include "reader.h"
 
 namespace trk_bridge::bag {
 
-/// What a take is made of: a camera's params and constants, or tf and its camera_info.
-enum class BagInput { params, tf };
+/// What a take is made from: a camera's params and constants, or tf and its camera_info.
+enum class Input { params, tf };
 
 /// A namespace without its first slash ("studio1/crane1"; "" for topics that have none).
-struct BagCamera {
+struct ChosenCamera {
   std::string name;
-  BagInput input = BagInput::params;
+  Input input = Input::params;
 };
 
 /// The topic of a camera: "/studio1/crane1/params".
@@ -24,12 +24,12 @@ std::string topic_of(const std::string& camera, const std::string& last);
 /// The only camera, or the one named, with or without its first slash; read by its params where it has any, unless
 /// `input` says otherwise. Throws BagError: none, several (listing them), a topic that has another type or an older
 /// form of the message.
-BagCamera choose_camera(const std::vector<BagConnection>&, const std::optional<std::string>& name,
-                        std::optional<BagInput> input);
+ChosenCamera choose_camera(const std::vector<Connection>&, const std::optional<std::string>& name,
+                           std::optional<Input> input);
 
 /// Throws BagError when a connection of this topic carries anything else. False when there is none.
 template <typename Message>
-bool has_topic(const std::vector<BagConnection>& connections, const std::string& topic) {
+bool has_topic(const std::vector<Connection>& connections, const std::string& topic) {
   bool found = false;
   for (const auto& connection : connections) {
     if (connection.topic != topic) continue;

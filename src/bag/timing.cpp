@@ -1,12 +1,12 @@
-#include "bag_timing.h"
+#include "timing.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <ostream>
 
-#include "bag_fields.h"
+#include "base/time_text.h"
+#include "cli/number_text.h"
 #include "trk_bridge/base/sequence.h"
 
 namespace trk_bridge::bag {
@@ -18,7 +18,7 @@ constexpr double rate_tolerance = 0.02;           // 48 Hz is 4 % from 50
 constexpr std::int64_t day = 86'400'000'000'000;  // ns
 
 template <typename Number>
-std::optional<Number> number_of(const BagConnection& connection, const char* key) {
+std::optional<Number> number_of(const Connection& connection, const char* key) {
   const auto entry = connection.header.find(key);
   if (entry == connection.header.end()) return std::nullopt;
   const std::string& text = entry->second;
@@ -32,8 +32,9 @@ double seconds_of(const std::vector<std::int64_t>& stamps) {
   return static_cast<double>(stamps.back() - stamps.front()) / nanoseconds_per_second;
 }
 
-std::optional<double> by_counters(const std::vector<wire::CameraParams>& params,
-                                  const std::vector<std::int64_t>& stamps) {
+std::optional<double> by_counters(const Fields& fields) {
+  const auto& params = fields.params;
+  const auto& stamps = fields.stamps;
   long double counts = 0;
   long double nanoseconds = 0;
   for (std::size_t i = 1; i < params.size(); ++i) {
@@ -72,76 +73,69 @@ struct Gaps {
 
 }  // namespace
 
-std::string rate_text(double hertz) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), hertz).ptr;
-  return {text.data(), end};
-}
-
-Clockwork clockwork_of(const std::vector<BagConnection>& connections, const std::string& topic) {
-  Clockwork clockwork;
+RecordedTiming recorded_timing(const std::vector<Connection>& connections, const std::string& topic) {
+  RecordedTiming timing;
   bool is_first = true;
   for (const auto& connection : connections) {
     if (connection.topic != topic) continue;
     const auto rate = number_of<double>(connection, field_rate_key);
     const auto zero = number_of<std::int64_t>(connection, time_code_zero_key);
-    if (is_first) clockwork = {rate, zero};
-    if (rate != clockwork.field_rate) clockwork.field_rate.reset();
-    if (zero != clockwork.time_code_zero) clockwork.time_code_zero.reset();
+    if (is_first) timing = {rate, zero};
+    if (rate != timing.field_rate) timing.field_rate.reset();
+    if (zero != timing.time_code_zero) timing.time_code_zero.reset();
     is_first = false;
   }
-  return clockwork;
+  return timing;
 }
 
-std::optional<double> measured_rate(const std::vector<wire::CameraParams>& params,
-                                    const std::vector<std::int64_t>& stamps, bool has_counters) {
-  if (stamps.size() < 2 || seconds_of(stamps) < least_span) return std::nullopt;
-  return has_counters ? by_counters(params, stamps) : by_distances(stamps);
+std::optional<double> measured_rate(const Fields& fields) {
+  if (fields.stamps.size() < 2 || seconds_of(fields.stamps) < least_span) return std::nullopt;
+  return fields.has_counters ? by_counters(fields) : by_distances(fields.stamps);
 }
 
-double field_rate_of(std::optional<double> said, std::optional<double> of_bag, std::optional<double> measured,
+double field_rate_of(std::optional<double> option, std::optional<double> of_bag, std::optional<double> measured,
                      std::ostream& err) {
-  const double rate = said ? *said : of_bag.value_or(default_field_rate);
+  const double rate = option ? *option : of_bag.value_or(default_field_rate);
   if (!measured || !disagree(rate, *measured)) return rate;
-  const std::string found = "the stamps tell of " + rate_text(std::round(*measured * 1000) / 1000) +
-                            " fields a second, not " + rate_text(rate);
-  if (!said) throw BagError(found + ": say --field-rate HZ");
+  const std::string found = "the stamps give " + cli::number_text(std::round(*measured * 1000) / 1000) +
+                            " fields a second, not " + cli::number_text(rate);
+  if (!option) throw BagError(found + ": set --field-rate HZ");
   err << "trk: " << found << '\n';
   return rate;
 }
 
 tl::expected<base::TimeCode, std::string> time_code_of(std::int64_t stamp, double field_rate,
-                                                            std::optional<std::int64_t> zero) {
+                                                       std::optional<std::int64_t> zero) {
   const bool counts = zero && *zero <= stamp;
   return base::time_code_at(counts ? stamp - *zero : stamp % day, field_rate);
 }
 
-void tell_gaps(const std::vector<wire::CameraParams>& params, const std::vector<std::int64_t>& stamps,
-               bool has_counters, double field_rate, std::ostream& err) {
+void report_gaps(const Fields& fields, double field_rate, std::ostream& err) {
   Gaps gaps;
   base::Sequence sequence(field_rate);
   std::uint64_t lost = 0;
-  for (std::size_t i = 0; i < params.size(); ++i) {
-    if (has_counters) {
-      const auto order = sequence.judge(params[i].counter);
+  for (std::size_t i = 0; i < fields.params.size(); ++i) {
+    if (fields.has_counters) {
+      const auto order = sequence.judge(fields.params[i].counter);
       const std::uint64_t now_lost = sequence.counts().lost;
-      if (order == base::Order::next && now_lost > lost) gaps.add(now_lost - lost, stamps[i - 1]);
+      if (order == base::Order::next && now_lost > lost) gaps.add(now_lost - lost, fields.stamps[i - 1]);
       lost = now_lost;
     } else if (i > 0) {
-      const double steps = static_cast<double>(stamps[i] - stamps[i - 1]) * field_rate / nanoseconds_per_second;
+      const double steps =
+          static_cast<double>(fields.stamps[i] - fields.stamps[i - 1]) * field_rate / nanoseconds_per_second;
       const auto missing = std::llround(steps) - 1;
-      if (missing > 0) gaps.add(static_cast<std::uint64_t>(missing), stamps[i - 1]);
+      if (missing > 0) gaps.add(static_cast<std::uint64_t>(missing), fields.stamps[i - 1]);
     }
   }
   if (gaps.gaps > 0) {
     err << "trk: " << gaps.fields << " fields are missing in " << gaps.gaps << " gaps, the first of "
-        << gaps.first_fields << " after " << stamp_text(gaps.first)
-        << ": the take holds the others one behind the other, and plays so much shorter\n";
+        << gaps.first_fields << " after " << base::seconds_text(gaps.first)
+        << ": the take holds the other fields without gaps, and is shorter by them\n";
   }
   const auto& counts = sequence.counts();
   if (counts.duplicates + counts.late + counts.restarts > 0) {
     err << "trk: " << counts.duplicates << " counters came twice, " << counts.late << " late, and " << counts.restarts
-        << " times the count began anew: all of these fields are in the take\n";
+        << " times the counter restarted: all of these fields are in the take\n";
   }
 }
 

@@ -7,14 +7,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "bag_take.h"
 #include "cli/exit_code.h"
+#include "convert.h"
 
 namespace trk_bridge::bag {
 
-class BagCommand {
+class Command {
  public:
-  explicit BagCommand(CLI::App&);
+  explicit Command(CLI::App&);
   bool is_asked_for() const { return command_->parsed(); }
   /// Throws CLI::Error for wrong options, std::runtime_error for all else that goes wrong.
   cli::ExitCode run();
@@ -27,7 +27,7 @@ class BagCommand {
   cli::ExitCode to_take(cli::LongRun&);
 
   CLI::App* command_;
-  std::vector<CLI::Option*> of_bag_, of_take_;  // options of one way only
+  std::vector<CLI::Option*> to_bag_only_, to_take_only_;
   std::string from_, to_;
   bool overwrite_ = false;
   std::optional<std::string> camera_, format_, studio_frame_, camera_frame_;
@@ -37,7 +37,7 @@ class BagCommand {
   std::string compression_ = "none";
   // to a take
   std::optional<std::string> input_;
-  BagToTakeOptions to_take_;
+  BagToTakeOptions to_take_options_;
 };
 
 }  // namespace trk_bridge::bag

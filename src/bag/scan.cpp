@@ -1,4 +1,4 @@
-#include "bag_scan.h"
+#include "scan.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -11,7 +11,7 @@
 #include <ros/datatypes.h>
 #include <rosbag/constants.h>
 
-#include "bag_chunk.h"
+#include "chunk.h"
 
 namespace trk_bridge::bag {
 namespace {
@@ -80,8 +80,8 @@ std::string text_in(const ::ros::M_string& fields, const std::string& name) {
   return field == fields.end() ? std::string() : field->second;
 }
 
-/// Every field is its size in four bytes, its name, an equals sign and its value. ros::Header reads the same, but says
-/// what it thinks of others on standard error.
+/// Every field is its size in four bytes, its name, an equals sign and its value. ros::Header reads the same, but
+/// writes its errors to standard error.
 std::optional<::ros::M_string> fields_of(const std::vector<std::uint8_t>& bytes) {
   ::ros::M_string fields;
   std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -102,9 +102,9 @@ std::optional<::ros::M_string> fields_of(const std::vector<std::uint8_t>& bytes)
 
 class Scan {
  public:
-  Scan(const std::string& path, const std::function<void(const BagConnection&)>& meet,
-       const std::function<void(const BagMessage&)>& visit, cli::LongRun& run)
-      : path_(path), meet_(meet), visit_(visit), run_(run) {}
+  Scan(const std::string& path, const std::function<void(const Connection&)>& on_connection,
+       const std::function<void(const RawMessage&)>& on_message, cli::LongRun& run)
+      : path_(path), on_connection_(on_connection), on_message_(on_message), run_(run) {}
 
   std::string run() {
     FileBytes file(path_);
@@ -115,16 +115,17 @@ class Scan {
                      std::string(magic.substr(0, magic.size() - 1)));
     }
     const std::uint64_t end = records(file, magic.size(), /*is_file=*/true);
-    std::string told = end == file.size()
-                           ? "everything in it was read"
-                           : "it is read up to byte " + std::to_string(end) + " of " + std::to_string(file.size());
-    if (!chunk_fault_.empty()) told += "; " + chunk_fault_;
-    if (strangers_ != 0) told += "; " + std::to_string(strangers_) + " messages of unknown topics were passed over";
-    return told;
+    std::string result = end == file.size()
+                             ? "everything in it was read"
+                             : "it is read up to byte " + std::to_string(end) + " of " + std::to_string(file.size());
+    if (!chunk_fault_.empty()) result += "; " + chunk_fault_;
+    if (unknown_messages_ != 0)
+      result += "; " + std::to_string(unknown_messages_) + " messages of unknown topics were left out";
+    return result;
   }
 
  private:
-  /// Reads records for as long as they are whole; where it came to.
+  /// Reads records for as long as they are whole. Returns where it stopped.
   std::uint64_t records(Bytes& from, std::uint64_t at, bool is_file) {
     for (;;) {
       if (is_file) run_.at(static_cast<double>(at) / static_cast<double>(from.size()));
@@ -162,10 +163,10 @@ class Scan {
       const auto id = number_in<std::uint32_t>(fields, rosbag::CONNECTION_FIELD_NAME);
       const auto known = id ? connections_.find(*id) : connections_.end();
       if (known == connections_.end()) {
-        ++strangers_;
-      } else if (visit_) {
+        ++unknown_messages_;
+      } else if (on_message_) {
         from.read(data, size, data_);
-        visit_({known->second, data_});
+        on_message_({known->second, data_});
       }
     }
     return data + size;
@@ -174,8 +175,8 @@ class Scan {
   std::optional<std::uint64_t> chunk(Bytes& from, const ::ros::M_string& fields, std::uint64_t data,
                                      std::uint32_t size) {
     const std::string compression = text_in(fields, rosbag::COMPRESSION_FIELD_NAME);
-    // The records of a plain chunk are as good as the file's own; so the one that was not finished, whose size nobody
-    // wrote down, needs no care.
+    // The records of a plain chunk are as good as the file's own; so the unfinished one, whose size was never
+    // written, needs no special care.
     if (compression == rosbag::COMPRESSION_NONE) return data;
     const std::uint64_t there = from.size() - data;
     const std::uint64_t packed = size == 0 ? there : std::min<std::uint64_t>(size, there);
@@ -193,13 +194,13 @@ class Scan {
     const auto id = number_in<std::uint32_t>(fields, rosbag::CONNECTION_FIELD_NAME);
     const auto header = fields_of(data_);
     if (!id || !header || connections_.count(*id) != 0) return;
-    BagConnection& met = connections_[*id];
-    met.id = *id;
-    met.topic = text_in(fields, rosbag::TOPIC_FIELD_NAME);
-    met.type = text_in(*header, "type");
-    met.md5sum = text_in(*header, "md5sum");
-    met.header.insert(header->begin(), header->end());
-    meet_(met);
+    Connection& found = connections_[*id];
+    found.id = *id;
+    found.topic = text_in(fields, rosbag::TOPIC_FIELD_NAME);
+    found.type = text_in(*header, "type");
+    found.md5sum = text_in(*header, "md5sum");
+    found.header.insert(header->begin(), header->end());
+    on_connection_(found);
   }
 
   static std::optional<std::uint32_t> size_at(Bytes& from, std::uint64_t at) {
@@ -212,20 +213,20 @@ class Scan {
   }
 
   const std::string& path_;
-  const std::function<void(const BagConnection&)>& meet_;
-  const std::function<void(const BagMessage&)>& visit_;
+  const std::function<void(const Connection&)>& on_connection_;
+  const std::function<void(const RawMessage&)>& on_message_;
   cli::LongRun& run_;
-  std::map<std::uint32_t, BagConnection> connections_;
+  std::map<std::uint32_t, Connection> connections_;
   std::vector<std::uint8_t> header_, data_, packed_;
   std::string chunk_fault_;
-  std::uint64_t strangers_ = 0;
+  std::uint64_t unknown_messages_ = 0;
 };
 
 }  // namespace
 
-std::string scan_bag(const std::string& path, const std::function<void(const BagConnection&)>& meet,
-                     const std::function<void(const BagMessage&)>& visit, cli::LongRun& run) {
-  return Scan(path, meet, visit, run).run();
+std::string scan_bag(const std::string& path, const std::function<void(const Connection&)>& on_connection,
+                     const std::function<void(const RawMessage&)>& on_message, cli::LongRun& run) {
+  return Scan(path, on_connection, on_message, run).run();
 }
 
 }  // namespace trk_bridge::bag

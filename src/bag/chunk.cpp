@@ -1,4 +1,4 @@
-#include "bag_chunk.h"
+#include "chunk.h"
 
 #include <algorithm>
 #include <utility>
@@ -18,27 +18,27 @@ constexpr std::size_t portion = std::size_t{1} << 30;
 
 enum class Step { more, end, fault };
 
-/// Feeds a decompressor until it ends, fails or has had everything. `Stream::step` takes and gives what it can.
+/// Feeds a decompressor until it ends, fails or has had everything. `Stream::step` consumes and produces what it can.
 template <typename Stream>
 Unpacked unpack(std::vector<std::uint8_t>& packed) {
   Stream stream;
-  Unpacked result;
-  std::size_t taken = 0;
-  std::size_t given = 0;
+  Unpacked unpacked;
+  std::size_t consumed = 0;
+  std::size_t produced = 0;
   const auto finish = [&](const char* fault) {
-    result.bytes.resize(given);
-    result.fault = fault;
-    return std::move(result);
+    unpacked.bytes.resize(produced);
+    unpacked.fault = fault;
+    return std::move(unpacked);
   };
   for (;;) {
-    if (given > most_bytes) return finish("unpacks to more than 1 GiB");
-    result.bytes.resize(given + room);
-    std::size_t in = std::min(packed.size() - taken, portion);
+    if (produced > most_bytes) return finish("unpacks to more than 1 GiB");
+    unpacked.bytes.resize(produced + room);
+    std::size_t in = std::min(packed.size() - consumed, portion);
     std::size_t out = room;
-    const Step step = stream.step(reinterpret_cast<char*>(packed.data()) + taken, in,
-                                  reinterpret_cast<char*>(result.bytes.data()) + given, out);
-    taken += in;
-    given += out;
+    const Step step = stream.step(reinterpret_cast<char*>(packed.data()) + consumed, in,
+                                  reinterpret_cast<char*>(unpacked.bytes.data()) + produced, out);
+    consumed += in;
+    produced += out;
     if (step == Step::end) return finish("");
     if (step == Step::fault) return finish("is damaged");
     if (in == 0 && out == 0) return finish("is cut short");
@@ -60,11 +60,11 @@ class Bzip2 {
     stream_.avail_in = static_cast<unsigned>(in);
     stream_.next_out = to;
     stream_.avail_out = static_cast<unsigned>(out);
-    const int told = BZ2_bzDecompress(&stream_);
+    const int result = BZ2_bzDecompress(&stream_);
     in -= stream_.avail_in;
     out -= stream_.avail_out;
-    if (told == BZ_STREAM_END) return Step::end;
-    return told == BZ_OK ? Step::more : Step::fault;
+    if (result == BZ_STREAM_END) return Step::end;
+    return result == BZ_OK ? Step::more : Step::fault;
   }
 
  private:
@@ -87,12 +87,12 @@ class Lz4 {
     stream_.input_left = static_cast<int>(in);
     stream_.output_next = to;
     stream_.output_left = static_cast<int>(out);
-    const int told = roslz4_decompress(&stream_);
+    const int result = roslz4_decompress(&stream_);
     in -= static_cast<std::size_t>(stream_.input_left);
     out -= static_cast<std::size_t>(stream_.output_left);
-    if (told == ROSLZ4_STREAM_END) return Step::end;
-    const bool wants_room = told == ROSLZ4_OUTPUT_SMALL && out > 0;
-    return told == ROSLZ4_OK || wants_room ? Step::more : Step::fault;
+    if (result == ROSLZ4_STREAM_END) return Step::end;
+    const bool wants_room = result == ROSLZ4_OUTPUT_SMALL && out > 0;
+    return result == ROSLZ4_OK || wants_room ? Step::more : Step::fault;
   }
 
  private:

@@ -1,4 +1,4 @@
-#include "bag_cameras.h"
+#include "cameras.h"
 
 #include <iterator>
 #include <map>
@@ -20,11 +20,11 @@ std::optional<std::string> name_space_of(const std::string& topic, std::string_v
 
 struct Topics {
   bool params = false, camera_info = false;
-  bool can(BagInput input) const { return input == BagInput::params ? params : camera_info; }
+  bool can(Input input) const { return input == Input::params ? params : camera_info; }
 };
 
-/// By type alone: whether the form is this program's counts for the chosen one only.
-std::map<std::string, Topics> cameras_in(const std::vector<BagConnection>& connections) {
+/// By type alone: the form of the message is only checked for the chosen one.
+std::map<std::string, Topics> cameras_in(const std::vector<Connection>& connections) {
   std::map<std::string, Topics> cameras;
   for (const auto& connection : connections) {
     if (connection.type == ::ros::message_traits::datatype<trk_bridge::CameraParams>()) {
@@ -48,10 +48,10 @@ std::string listed(const std::map<std::string, Topics>& cameras) {
   return text.empty() ? "no camera" : text;
 }
 
-const char* wanted(std::optional<BagInput> input) {
+const char* wanted(std::optional<Input> input) {
   if (!input) return "params of type trk_bridge/CameraParams or camera_info of type sensor_msgs/CameraInfo";
-  return *input == BagInput::params ? "params of type trk_bridge/CameraParams"
-                                    : "camera_info of type sensor_msgs/CameraInfo";
+  return *input == Input::params ? "params of type trk_bridge/CameraParams"
+                                 : "camera_info of type sensor_msgs/CameraInfo";
 }
 
 }  // namespace
@@ -60,8 +60,8 @@ std::string topic_of(const std::string& camera, const std::string& last) {
   return camera.empty() ? "/" + last : "/" + camera + "/" + last;
 }
 
-BagCamera choose_camera(const std::vector<BagConnection>& connections, const std::optional<std::string>& name,
-                        std::optional<BagInput> input) {
+ChosenCamera choose_camera(const std::vector<Connection>& connections, const std::optional<std::string>& name,
+                           std::optional<Input> input) {
   const auto all = cameras_in(connections);
   const std::string bare = name ? name->substr(!name->empty() && name->front() == '/' ? 1 : 0) : std::string();
   auto fit = all;
@@ -77,9 +77,9 @@ BagCamera choose_camera(const std::vector<BagConnection>& connections, const std
     throw BagError("camera " + *name + " has no topic " + wanted(input) + "; the bag has " + listed(all));
   }
   if (fit.empty()) throw BagError(std::string("no topic ") + wanted(input) + "; the bag has " + listed(all));
-  if (fit.size() > 1) throw BagError("several cameras, --camera must say which: " + listed(fit));
+  if (fit.size() > 1) throw BagError("several cameras, --camera must name one: " + listed(fit));
   const auto& [chosen, topics] = *fit.begin();
-  return {chosen, input.value_or(topics.params ? BagInput::params : BagInput::tf)};
+  return {chosen, input.value_or(topics.params ? Input::params : Input::tf)};
 }
 
 }  // namespace trk_bridge::bag

@@ -1,4 +1,4 @@
-#include "bag_command.h"
+#include "command.h"
 
 #include <fstream>
 #include <iostream>
@@ -6,18 +6,19 @@
 
 #include <unistd.h>
 
-#include "cli/arguments.h"
-#include "ros/trk_to_ros_parameters.h"
 #include "base/time_text.h"
+#include "cli/arguments.h"
 #include "cli/stop_signals.h"
+#include "ros/trk_to_ros_parameters.h"
 
 namespace trk_bridge::bag {
 namespace {
 
 constexpr const char* help =
     "The bag holds what trk_to_ros publishes of a take, on /NAME/params, /NAME/constants, /NAME/camera_info, /tf and "
-    "/tf_static. Without --date or --start it lies on 1970-01-02, for a take tells no day. The take holds one set of "
-    "parameters for every message of /NAME/params, or for every camera_info whose pose tf tells; its time code is that "
+    "/tf_static. Without --date or --start it lies on 1970-01-02, because a take does not contain its day. The take "
+    "holds one set of "
+    "parameters for every message of /NAME/params, or for every camera_info with a pose in tf; its time code is that "
     "of the first stamp in UTC. A bag cut short by a crash gives what it holds.";
 
 bool ends_in(std::string_view text, std::string_view end) {
@@ -40,8 +41,7 @@ T value_of(const tl::expected<T, std::string>& parsed, const char* option) {
 
 }  // namespace
 
-BagCommand::BagCommand(CLI::App& app)
-    : command_(app.add_subcommand("bag", "Make a bag of a take, or a take of a bag")) {
+Command::Command(CLI::App& app) : command_(app.add_subcommand("bag", "Make a bag of a take, or a take of a bag")) {
   command_->footer(help);
   command_->add_option("FROM", from_, "TAKE.trk or TAKE.bag")->required();
   command_->add_option("TO", to_, "the other one")->required();
@@ -50,7 +50,7 @@ BagCommand::BagCommand(CLI::App& app)
       ->type_name("NAME");
   command_
       ->add_option("--field-rate", field_rate_,
-                   "Video fields a second (to a bag: 50; to a take: as trk bag wrote it down, else 50)")
+                   "Video fields a second (to a bag: 50; to a take: as trk bag recorded it, else 50)")
       ->check(CLI::Range(1.0, 1000.0))
       ->type_name("HZ");
   command_
@@ -67,7 +67,7 @@ BagCommand::BagCommand(CLI::App& app)
   add_options_to_take();
 }
 
-void BagCommand::add_options_to_bag() {
+void Command::add_options_to_bag() {
   auto* start =
       command_->add_option("--start", start_, "When the first field was, instead of its time code")->type_name("TIME");
   auto* date = command_->add_option("--date", date_, "The day of the time code, in UTC")->type_name("YYYY-MM-DD");
@@ -75,31 +75,32 @@ void BagCommand::add_options_to_bag() {
   auto* optical = command_->add_option("--optical-frame", optical_frame_, "Default: NAME_optical")->type_name("FRAME");
   auto* compression = command_->add_option("--compression", compression_, "Of the bag (default: none)")
                           ->check(CLI::IsMember({"none", "bz2", "lz4"}));
-  of_bag_ = {start, date, optical, compression};
+  to_bag_only_ = {start, date, optical, compression};
 }
 
-void BagCommand::add_options_to_take() {
+void Command::add_options_to_take() {
   auto* input = command_->add_option("--input", input_, "params, or tf and camera_info (default: params if there are)")
                     ->check(CLI::IsMember({"params", "tf"}));
-  auto* id = command_->add_option("--id", to_take_.id, "Camera number in place of the one in the bag")->type_name("N");
-  auto* width = command_->add_option("--chip-width", to_take_.chip_width, "For a bag without constants")
+  auto* id =
+      command_->add_option("--id", to_take_options_.id, "Camera number in place of the one in the bag")->type_name("N");
+  auto* width = command_->add_option("--chip-width", to_take_options_.chip_width, "For a bag without constants")
                     ->check(CLI::PositiveNumber)
                     ->type_name("MM");
-  auto* height = command_->add_option("--chip-height", to_take_.chip_height, "For a bag without constants")
+  auto* height = command_->add_option("--chip-height", to_take_options_.chip_height, "For a bag without constants")
                      ->check(CLI::PositiveNumber)
                      ->type_name("MM");
-  auto* optical = command_->add_flag("--camera-frame-is-optical", to_take_.camera_frame_is_optical,
+  auto* optical = command_->add_flag("--camera-frame-is-optical", to_take_options_.camera_frame_is_optical,
                                      "The axes of --camera-frame are optical ones");
-  of_take_ = {input, id, width, height, optical};
+  to_take_only_ = {input, id, width, height, optical};
 }
 
-void BagCommand::refuse_options_of(const std::vector<CLI::Option*>& options, const char* way) const {
+void Command::refuse_options_of(const std::vector<CLI::Option*>& options, const char* way) const {
   for (const auto* option : options) {
     if (option->count() > 0) throw CLI::ValidationError(option->get_name() + " is for the way " + way);
   }
 }
 
-cli::ExitCode BagCommand::run() {
+cli::ExitCode Command::run() {
   const cli::StopSignals signals;
   cli::LongRun run(std::cerr, ::isatty(STDERR_FILENO) == 1);
   const bool from_bag = is_named_bag(from_) || begins_as_bag(from_);
@@ -110,8 +111,8 @@ cli::ExitCode BagCommand::run() {
   return from_bag ? to_take(run) : to_bag(run);
 }
 
-cli::ExitCode BagCommand::to_bag(cli::LongRun& run) {
-  refuse_options_of(of_take_, "from a bag to a take");
+cli::ExitCode Command::to_bag(cli::LongRun& run) {
+  refuse_options_of(to_take_only_, "from a bag to a take");
   TakeToBagOptions options;
   if (camera_) options.camera = *camera_;
   if (format_) options.format = value_of(ros1::parse_published_format(*format_), "--format");
@@ -127,19 +128,19 @@ cli::ExitCode BagCommand::to_bag(cli::LongRun& run) {
   return cli::exit_good;
 }
 
-cli::ExitCode BagCommand::to_take(cli::LongRun& run) {
-  refuse_options_of(of_bag_, "from a take to a bag");
-  if (to_take_.camera_frame_is_optical && !camera_frame_) {
-    throw CLI::ValidationError("--camera-frame-is-optical: says of --camera-frame what it is, and needs that");
+cli::ExitCode Command::to_take(cli::LongRun& run) {
+  refuse_options_of(to_bag_only_, "from a take to a bag");
+  if (to_take_options_.camera_frame_is_optical && !camera_frame_) {
+    throw CLI::ValidationError("--camera-frame-is-optical: needs --camera-frame, whose axes it describes");
   }
-  to_take_.camera = camera_;
-  to_take_.camera_frame = camera_frame_;
-  to_take_.field_rate = field_rate_;
-  to_take_.overwrite = overwrite_;
-  if (studio_frame_) to_take_.studio_frame = *studio_frame_;
-  if (format_) to_take_.format = value_of(ros1::parse_published_format(*format_), "--format");
-  if (input_) to_take_.input = *input_ == "tf" ? BagInput::tf : BagInput::params;
-  take_of_bag(from_, to_, to_take_, run, std::cerr);
+  to_take_options_.camera = camera_;
+  to_take_options_.camera_frame = camera_frame_;
+  to_take_options_.field_rate = field_rate_;
+  to_take_options_.overwrite = overwrite_;
+  if (studio_frame_) to_take_options_.studio_frame = *studio_frame_;
+  if (format_) to_take_options_.format = value_of(ros1::parse_published_format(*format_), "--format");
+  if (input_) to_take_options_.input = *input_ == "tf" ? Input::tf : Input::params;
+  take_of_bag(from_, to_, to_take_options_, run, std::cerr);
   return cli::exit_good;
 }
 

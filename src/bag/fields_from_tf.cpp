@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <ostream>
 #include <string>
 #include <tuple>
@@ -11,9 +10,9 @@
 #include <tf2_msgs/TFMessage.h>
 #include <trk_bridge/CameraConstants.h>
 
-#include "bag_fields.h"
-#include "trk_bridge/camera/calibration.h"
-#include "trk_bridge/camera/camera.h"
+#include "bridge/camera_info.h"
+#include "fields.h"
+#include "ros/camera_info.h"
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/ros/messages.h"
 #include "trk_bridge/wire/format.h"
@@ -27,7 +26,7 @@ using geometry_msgs::TransformStamped;
 const ::ros::Duration reach(10.0);
 
 struct Recorded {
-  BagConstants constants;
+  RecordedConstants constants;
   std::vector<sensor_msgs::CameraInfo> infos;
   std::vector<TransformStamped> moving, fixed;
 };
@@ -36,7 +35,7 @@ void strip_slash(std::string& frame) {
   if (!frame.empty() && frame.front() == '/') frame.erase(0, 1);
 }
 
-Recorded read(BagFile& bag, const std::string& camera) {
+Recorded read(Reader& bag, const std::string& camera, std::uint32_t format) {
   const std::string info_topic = topic_of(camera, "camera_info");
   const std::string constants_topic = topic_of(camera, "constants");
   has_topic<sensor_msgs::CameraInfo>(bag.connections(), info_topic);
@@ -45,19 +44,19 @@ Recorded read(BagFile& bag, const std::string& camera) {
   const bool has_tf_static = has_topic<tf2_msgs::TFMessage>(bag.connections(), "/tf_static");
   if (!has_tf && !has_tf_static) throw BagError("there is neither /tf nor /tf_static: the pose is not known");
 
-  Recorded recorded;
-  const auto wanted = [&](const BagConnection& connection) {
+  Recorded recorded{RecordedConstants(format), {}, {}, {}};
+  const auto wanted = [&](const Connection& connection) {
     const auto& topic = connection.topic;
     return topic == info_topic || topic == constants_topic || topic == "/tf" || topic == "/tf_static";
   };
-  bag.read(wanted, [&](const BagMessage& raw) {
+  bag.read(wanted, [&](const RawMessage& raw) {
     if (raw.connection.topic == info_topic) {
-      recorded.constants.note_params();
+      recorded.constants.note_field();
       recorded.infos.push_back(message_of<sensor_msgs::CameraInfo>(raw));
       strip_slash(recorded.infos.back().header.frame_id);
     } else if (raw.connection.topic == constants_topic) {
       const auto message = message_of<trk_bridge::CameraConstants>(raw);
-      recorded.constants.take(ros1::from_msg(message), static_cast<std::int64_t>(message.header.stamp.toNSec()));
+      recorded.constants.use(ros1::from_msg(message), stamp_of(message));
     } else {
       auto& into = raw.connection.topic == "/tf" ? recorded.moving : recorded.fixed;
       for (auto& transform : message_of<tf2_msgs::TFMessage>(raw).transforms) {
@@ -70,7 +69,7 @@ Recorded read(BagFile& bag, const std::string& camera) {
   return recorded;
 }
 
-/// By time, one for each child and stamp: a buffer takes repeated ones for a mistake, aloud.
+/// By time, one for each child and stamp: a buffer warns of repeated ones.
 void put_in_order(std::vector<TransformStamped>& transforms) {
   const auto key = [](const TransformStamped& t) { return std::tie(t.header.stamp, t.child_frame_id); };
   std::stable_sort(transforms.begin(), transforms.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
@@ -79,8 +78,8 @@ void put_in_order(std::vector<TransformStamped>& transforms) {
       transforms.end());
 }
 
-/// The transforms of a recording, of which a buffer holds those around the time that is asked for: one with all of them
-/// would search through all of them every time.
+/// The transforms of a recording. The buffer holds only those around the requested time, because each lookup searches
+/// all that it holds.
 class Poses {
  public:
   Poses(std::vector<TransformStamped> moving, const std::vector<TransformStamped>& fixed)
@@ -89,7 +88,7 @@ class Poses {
     for (const auto& transform : fixed) buffer_.setTransform(transform, "bag", /*is_static=*/true);
   }
 
-  /// Stamps must not fall. The error is tf's own.
+  /// Each stamp must not be before the last one. The error is tf's own.
   tl::expected<Eigen::Isometry3d, std::string> at(::ros::Time stamp, const std::string& parent,
                                                   const std::string& child) {
     for (; next_ < moving_.size() && moving_[next_].header.stamp <= stamp + reach; ++next_) {
@@ -110,15 +109,15 @@ class Poses {
   tf2::BufferCore buffer_;
 };
 
-wire::CameraConstants constants_of(const Recorded& recorded, const BagToTakeOptions& options) {
-  const bool is_said = options.chip_width || options.chip_height;
-  if (const auto& known = recorded.constants.known()) {
-    if (is_said) throw BagError("--chip-width, --chip-height: for bags without constants; this one has them");
-    return *known;
+/// Those that the bag lacks, from the options.
+void use_chip_options(Recorded& recorded, const BagToTakeOptions& options) {
+  if (recorded.constants.converter().incoming() != nullptr) {
+    if (options.chip_width || options.chip_height) refuse_chip_options();
+    return;
   }
   if (!options.chip_width || !options.chip_height) {
     throw BagError(
-        "there are no constants, and CameraInfo knows no millimetres: say --chip-width MM and --chip-height MM");
+        "there are no constants, and CameraInfo has no millimetres: set --chip-width MM and --chip-height MM");
   }
   const auto& info = recorded.infos.front();
   wire::CameraConstants constants;
@@ -126,61 +125,55 @@ wire::CameraConstants constants_of(const Recorded& recorded, const BagToTakeOpti
   constants.image_height = static_cast<std::int32_t>(info.height);
   constants.chip_width = *options.chip_width;
   constants.chip_height = *options.chip_height;
-  return constants;
+  recorded.constants.use(constants, stamp_of(info));
 }
 
-/// The lens, fitted anew only when the calibration changes; and the worst that trk cannot tell of any.
-class Lenses {
+/// The lens of each CameraInfo, fitted again only when the calibration changes; and the largest errors of all fits.
+class LensFits {
  public:
-  explicit Lenses(const wire::CameraConstants& constants) : constants_(constants) {}
+  explicit LensFits(const wire::CameraConstants& constants) : constants_(constants) {}
 
-  tl::expected<camera::Lens, std::string> of(const sensor_msgs::CameraInfo& info) {
-    if (info.width != static_cast<std::uint32_t>(constants_.image_width) ||
-        info.height != static_cast<std::uint32_t>(constants_.image_height)) {
-      return tl::unexpected("its image is " + std::to_string(info.width) + " x " + std::to_string(info.height) +
+  tl::expected<camera::Lens, std::string> lens(const sensor_msgs::CameraInfo& message) {
+    if (message.width != static_cast<std::uint32_t>(constants_.image_width) ||
+        message.height != static_cast<std::uint32_t>(constants_.image_height)) {
+      return tl::unexpected("its image is " + std::to_string(message.width) + " x " + std::to_string(message.height) +
                             ", that of the constants " + std::to_string(constants_.image_width) + " x " +
                             std::to_string(constants_.image_height));
     }
-    const bool is_known_model =
-        info.D.empty() || info.distortion_model == "plumb_bob" || info.distortion_model == "rational_polynomial";
-    if (!is_known_model) {
-      return tl::unexpected("distortion model " + info.distortion_model +
-                            ": plumb_bob and rational_polynomial can be told in trk");
+    auto info = ros1::from_msg(message);
+    if (!fitted_ || !bridge::same_calibration(info, info_)) {
+      info_ = std::move(info);
+      fitted_ = bridge::fit_lens(info_, constants_);
+      if (*fitted_) keep_largest(**fitted_);
     }
-    std::array<double, 9> k{};
-    std::copy(info.K.begin(), info.K.end(), k.begin());
-    if (!fitted_ || k != k_ || info.D != d_) {
-      k_ = k;
-      d_ = info.D;
-      fitted_ = camera::fit_lens(k_, d_, constants_);
-      note();
+    if (!*fitted_) {
+      return tl::unexpected("camera_info with distortion_model '" + info_.distortion_model + "' and " +
+                            std::to_string(info_.d.size()) + " coefficients: " + bridge::describe(fitted_->error()));
     }
-    if (!*fitted_) return tl::unexpected(camera::describe(fitted_->error()));
     return (*fitted_)->lens;
   }
 
-  void tell(std::ostream& err) const {
-    if (residual_ > camera::plumb_bob_tolerance) tell(err, "k1 and k2 come to", residual_, "of the distortion");
-    if (tangential_ > camera::plumb_bob_tolerance) tell(err, "tangential distortion is lost:", tangential_, "");
-    if (aspect_ > camera::plumb_bob_tolerance) tell(err, "fy does not agree with fx and the chip:", aspect_, "");
+  void report(std::ostream& err) const {
+    report(err, "k1 and k2 differ from the distortion", largest_.residual);
+    report(err, "tangential distortion is left out", largest_.tangential);
+    report(err, "fy does not agree with fx and the chip", largest_.aspect);
   }
 
  private:
-  void note() {
-    if (!*fitted_) return;
-    residual_ = std::max(residual_, (*fitted_)->residual);
-    tangential_ = std::max(tangential_, (*fitted_)->tangential);
-    aspect_ = std::max(aspect_, (*fitted_)->aspect);
+  void keep_largest(const camera::FittedLens& fitted) {
+    largest_.residual = std::max(largest_.residual, fitted.residual);
+    largest_.tangential = std::max(largest_.tangential, fitted.tangential);
+    largest_.aspect = std::max(largest_.aspect, fitted.aspect);
   }
-  static void tell(std::ostream& err, const char* what, double pixels, const char* of_what) {
-    err << "trk: " << what << " within " << pixels << " pixels at worst" << (*of_what ? " " : "") << of_what << '\n';
+  static void report(std::ostream& err, const char* what, double pixels) {
+    if (pixels <= camera::plumb_bob_tolerance) return;
+    err << "trk: " << what << ": by at most " << pixels << " pixels\n";
   }
 
   const wire::CameraConstants constants_;
-  std::array<double, 9> k_{};
-  std::vector<double> d_;
-  std::optional<camera::Result<camera::FittedLens>> fitted_;
-  double residual_ = 0, tangential_ = 0, aspect_ = 0;
+  bridge::CameraInfo info_;
+  std::optional<tl::expected<camera::FittedLens, bridge::InfoFault>> fitted_;
+  camera::FittedLens largest_;  // its lens is not used
 };
 
 /// The pose of the camera's own axes: those of CameraInfo's frame are optical.
@@ -194,55 +187,53 @@ tl::expected<Eigen::Isometry3d, std::string> pose_of(Poses& poses, const sensor_
   return *pose * ros1::camera_T_optical().inverse();
 }
 
-tl::expected<wire::CameraParams, std::string> params_of(Poses& poses, Lenses& lenses,
+tl::expected<wire::CameraParams, std::string> params_of(Poses& poses, LensFits& fits,
                                                         const sensor_msgs::CameraInfo& info,
                                                         const BagToTakeOptions& options,
-                                                        const wire::CameraConstants& outgoing) {
+                                                        const camera::Converter& converter) {
   const auto pose = pose_of(poses, info, options);
   if (!pose) return tl::unexpected(pose.error());
-  const auto lens = lenses.of(info);
+  const auto lens = fits.lens(info);
   if (!lens) return tl::unexpected(lens.error());
-  auto params = camera::encode({*pose, *lens}, options.format.value_or(wire::euler), &outgoing);
+  const auto params = converter.convert(camera::Camera{*pose, *lens});
   if (!params) return tl::unexpected(camera::describe(params.error()));
-  params->id = outgoing.id;
   return *params;
 }
 
 }  // namespace
 
-BagFields fields_from_tf(BagFile& bag, const std::string& camera, const BagToTakeOptions& options, cli::LongRun& run,
-                         std::ostream& err) {
-  Recorded recorded = read(bag, camera);
+Fields fields_from_tf(Reader& bag, const std::string& camera, const BagToTakeOptions& options, cli::LongRun& run,
+                      std::ostream& err) {
+  Recorded recorded = read(bag, camera, options.format.value_or(wire::euler));
   if (recorded.infos.empty()) throw BagError("there is no message on " + topic_of(camera, "camera_info"));
   std::stable_sort(recorded.infos.begin(), recorded.infos.end(),
                    [](const auto& a, const auto& b) { return a.header.stamp < b.header.stamp; });
-  const auto incoming = constants_of(recorded, options);
-  if (const auto sound = camera::check(incoming); !sound) throw BagError(camera::describe(sound.error()));
-  const std::uint32_t format = options.format.value_or(wire::euler);
-  BagFields fields;
+  use_chip_options(recorded, options);
+  const camera::Converter& converter = recorded.constants.converter();
+  Fields fields;
   fields.has_counters = false;
-  fields.constants = camera::constants_for(incoming, format);
+  fields.constants = *converter.outgoing();
   if (options.id) fields.constants.id = *options.id;
   Poses poses(std::move(recorded.moving), recorded.fixed);
-  Lenses lenses(incoming);
+  LensFits fits(*converter.incoming());
   Omissions omissions;
   run.begin("converting");
   double done = 0;
   for (const auto& info : recorded.infos) {
     run.at(done++ / static_cast<double>(recorded.infos.size()));
-    auto params = params_of(poses, lenses, info, options, fields.constants);
-    const auto stamp = static_cast<std::int64_t>(info.header.stamp.toNSec());
+    auto params = params_of(poses, fits, info, options, converter);
     if (!params) {
-      omissions.add(params.error(), stamp);
+      omissions.add(params.error(), stamp_of(info));
       continue;
     }
+    params->id = fields.constants.id;
     params->counter = fields.params.size() + 1;
     fields.params.push_back(*params);
-    fields.stamps.push_back(stamp);
+    fields.stamps.push_back(stamp_of(info));
   }
   run.end();
-  omissions.tell(err);
-  lenses.tell(err);
+  omissions.report(err);
+  fits.report(err);
   if (fields.params.empty()) throw BagError("no field is left of " + topic_of(camera, "camera_info"));
   return fields;
 }
