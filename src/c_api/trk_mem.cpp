@@ -11,10 +11,10 @@
 namespace trk_bridge::c_api {
 namespace {
 
-using shm::SlotFault;
 using shm::Link;
-using shm::SlotProblem;
 using shm::ReadResult;
+using shm::SlotFault;
+using shm::SlotProblem;
 
 std::atomic<unsigned> configured{trkMemDefault};
 
