@@ -32,6 +32,7 @@ enum class Condition : std::uint8_t {
   unstampable,
   no_constants,
   bad_constants,
+  pose_only,
   withheld,
   no_camera_info,
   no_markers,

@@ -1,6 +1,6 @@
 #include "ros_to_trk.h"
 
-#include "node_parameters.h"
+#include "node.h"
 #include "params_input.h"
 #include "ros/ros_to_trk_parameters.h"
 #include "base/clock.h"

@@ -5,7 +5,8 @@
 #include "../camera/worked_cases.h"
 #include "same_camera.h"
 #include "trk_bridge/camera/image.h"
-#include "ros/camera_pipeline.h"
+#include "bridge/camera_pipeline.h"
+#include "ros/camera_messages.h"
 #include "ros/params_to_trk.h"
 #include "ros/tf_to_trk.h"
 #include "trk_bridge/wire/format.h"
@@ -25,8 +26,8 @@ struct Case {
 constexpr std::uint32_t other_format =
     wire::studio_to_camera | wire::camera_y_up | wire::field_of_view | wire::diagonal;
 
-CameraOptions published_in(std::optional<std::uint32_t> format) {
-  CameraOptions options;
+bridge::CameraOptions published_in(std::optional<std::uint32_t> format) {
+  bridge::CameraOptions options;
   options.format = format;
   return options;
 }
@@ -41,21 +42,22 @@ OutgoingForm form_of(const Case& c) {
 /// The messages of a case.
 class Incoming {
  public:
-  Incoming(const Case& c, std::optional<std::uint32_t> format)
-      : pipeline_(published_in(format), {"studio", "crane1", "crane1_optical"}, 50) {
+  Incoming(const Case& c, std::optional<std::uint32_t> format) : messages_({"studio", "crane1", "crane1_optical"}) {
+    bridge::CameraPipeline pipeline(published_in(format), 50);
     transport::Sample sample;
     sample.arrival = today;
     sample.record = c.constants;
-    (void)pipeline_.process(sample, 0);
+    messages_.make(pipeline.process(sample, 0));
     sample.record = c.params;
-    made = pipeline_.process(sample, 0);
+    made = pipeline.process(sample, 0);
+    messages_.make(made);
   }
-  const CameraPipeline* operator->() const { return &pipeline_; }
+  const CameraMessages* operator->() const { return &messages_; }
 
-  PipelineOutput made;
+  bridge::CameraUpdate made;
 
  private:
-  CameraPipeline pipeline_;
+  CameraMessages messages_;
 };
 
 void expect_same_through_params(const Case& c, std::uint32_t published_format) {
@@ -75,8 +77,8 @@ void expect_same_through_params(const Case& c, std::uint32_t published_format) {
 
 void expect_same_through_tf(const Case& c) {
   const Incoming incoming(c, wire::euler);
-  ASSERT_TRUE(incoming.made.transform);
-  ASSERT_TRUE(incoming.made.camera_info);
+  ASSERT_TRUE(incoming.made.pose);
+  ASSERT_TRUE(incoming.made.calibration);
   TfToTrkOptions options;
   options.chip.chip_width = c.constants.chip_width;
   options.chip.chip_height = c.constants.chip_height;

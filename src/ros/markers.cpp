@@ -1,8 +1,8 @@
-#include "camera_markers.h"
+#include "markers.h"
 
 #include <vector>
 
-#include "marker_look.h"
+#include "camera_info.h"
 
 namespace trk_bridge::ros1 {
 namespace {
@@ -30,6 +30,29 @@ void set_points(const std::vector<Eigen::Vector3d>& places, Marker& marker) {
 
 }  // namespace
 
+visualization_msgs::Marker make_marker(const std::string& name_space, const MarkerLook& look,
+                                       const std::string& frame) {
+  visualization_msgs::Marker marker;
+  marker.header.frame_id = frame;
+  marker.ns = name_space;
+  marker.type = look.type;
+  marker.pose.orientation.w = 1;
+  marker.scale.x = marker.scale.y = marker.scale.z = look.size;
+  marker.color.r = look.red;
+  marker.color.g = look.green;
+  marker.color.b = look.blue;
+  marker.color.a = look.alpha;
+  return marker;
+}
+
+geometry_msgs::Point to_point(const Eigen::Vector3d& place) {
+  geometry_msgs::Point point;
+  point.x = place.x();
+  point.y = place.y();
+  point.z = place.z();
+  return point;
+}
+
 CameraMarkers::CameraMarkers(const std::string& camera, const std::string& optical_frame, double far, double lifetime)
     : far_(far) {
   for (const Look& look : looks) {
@@ -44,7 +67,8 @@ CameraMarkers::CameraMarkers(const std::string& camera, const std::string& optic
 }
 
 const visualization_msgs::MarkerArray& CameraMarkers::draw(const sensor_msgs::CameraInfo& info, double focdist) {
-  if (!info_ || !same_calibration(info, *info_)) take_lens(info);
+  from_msg(info, info_);
+  if (!known_ || !same_calibration(info_, *known_)) take_lens();
   if (!border_) {
     ++statistics_.not_drawn;
     return remove(info.header.stamp);
@@ -63,19 +87,19 @@ const visualization_msgs::MarkerArray& CameraMarkers::remove(const ::ros::Time& 
   return markers_;
 }
 
-void CameraMarkers::take_lens(const sensor_msgs::CameraInfo& info) {
-  info_ = info;
+void CameraMarkers::take_lens() {
+  known_ = info_;
   border_.reset();
   focdist_ = 0;
   for (const Place place : {frustum, focus}) markers_.markers[place].points.clear();
-  const auto lens = viewing_lens(info);
+  const auto lens = viewing_lens(info_);
   if (!lens) {
     statistics_.reason = lens.error();
     return;
   }
   const auto border = camera::image_border(*lens);
   if (!border) {
-    statistics_.reason = {InfoReason::no_lens, border.error()};
+    statistics_.reason = {bridge::InfoReason::no_lens, border.error()};
     return;
   }
   border_ = *border;

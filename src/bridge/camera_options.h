@@ -3,12 +3,11 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include "trk_bridge/wire/format.h"
 #include "trk_bridge/wire/record.h"
 
-namespace trk_bridge::ros1 {
+namespace trk_bridge::bridge {
 
 struct CameraOptions {
   /// None: records of every id are this camera's; then its source must serve this camera alone.
@@ -21,11 +20,4 @@ struct CameraOptions {
   bool publish_camera_info = true;
 };
 
-/// Frames of a camera in tf. They must differ.
-struct CameraFrames {
-  std::string studio = "studio";
-  std::string camera;   ///< x right, y forward, z up
-  std::string optical;  ///< x right, y down, z forward (REP 103): a static child of `camera`
-};
-
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::bridge

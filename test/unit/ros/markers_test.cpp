@@ -1,5 +1,5 @@
 // What a camera looks like to a viewer of markers.
-#include "ros/camera_markers.h"
+#include "ros/markers.h"
 
 #include <limits>
 #include <map>
@@ -141,7 +141,7 @@ TEST_F(Markers, OfALensThatCannotBeDrawnAreRemovedWithTheReason) {
   auto fisheye = some_info();
   fisheye.distortion_model = "equidistant";
   EXPECT_EQ(actions(markers.draw(fisheye, 2)), all_removed);
-  EXPECT_EQ(markers.statistics().reason.reason, InfoReason::unknown_model);
+  EXPECT_EQ(markers.statistics().reason.reason, bridge::InfoReason::unknown_model);
 
   EXPECT_EQ(actions(markers.draw(some_info(), 2)), all_shown);
   EXPECT_TRUE(markers.visible());
