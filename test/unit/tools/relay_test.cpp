@@ -10,9 +10,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "file/take.h"
 #include "memory_feed.h"
 #include "temporary_directory.h"
-#include "file/take_file.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/wire/format.h"
 #include "udp.h"
 #include "vectors.h"
@@ -22,6 +23,7 @@ namespace {
 
 using testing::HasSubstr;
 using transport::Event;
+using transport::Written;
 
 /// What it took, for as long as it takes anything.
 class Basket final : public transport::Sink {
@@ -32,19 +34,16 @@ class Basket final : public transport::Sink {
   };
   explicit Basket(Content& content, bool refuses = false) : content_(content), refuses_(refuses) {}
 
-  tl::expected<void, transport::SinkFault> write(const wire::CameraParams& params) override { return take(params); }
-  tl::expected<void, transport::SinkFault> write(const wire::CameraConstants& constants) override {
-    return take(constants);
-  }
-  tl::expected<void, transport::SinkFault> close() override {
-    content_.closed = true;
-    return {};
-  }
-  transport::SinkStatistics statistics() const override { return {}; }
   std::string name() const override { return refuses_ ? "torn basket" : "basket"; }
 
  private:
-  tl::expected<void, transport::SinkFault> take(const wire::Record& record) {
+  Written put(const wire::CameraParams& params) override { return take(params); }
+  Written put(const wire::CameraConstants& constants) override { return take(constants); }
+  Written finish() override {
+    content_.closed = true;
+    return {};
+  }
+  Written take(const wire::Record& record) {
     if (refuses_) {
       transport::SinkFault fault{transport::SinkReason::system};
       fault.error_number = ENETUNREACH;
