@@ -6,11 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "file/take_file.h"
 #include "free_slot.h"
 #include "program.h"
 #include "temporary_directory.h"
 #include "trk_bridge/camera/camera.h"
-#include "file/take_file.h"
 #include "udp.h"
 #include "vectors.h"
 
