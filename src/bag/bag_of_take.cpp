@@ -14,7 +14,7 @@
 #include "cli/number_text.h"
 #include "convert.h"
 #include "file/part_file.h"
-#include "file/take_file.h"
+#include "file/take.h"
 #include "ros/camera_messages.h"
 #include "ros/trk_to_ros_parameters.h"
 #include "timing.h"

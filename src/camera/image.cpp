@@ -4,8 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "degrees.h"
-#include "root.h"
+#include "numeric.h"
 
 namespace trk_bridge::camera {
 namespace {

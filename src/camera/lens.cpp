@@ -1,8 +1,7 @@
-#include "lens.h"
-
 #include <cmath>
 
-#include "degrees.h"
+#include "numeric.h"
+#include "params.h"
 #include "trk_bridge/camera/image.h"
 #include "trk_bridge/wire/format.h"
 
@@ -34,7 +33,7 @@ Eigen::Array2d computed_fake_chip(const CameraConstants& c, std::uint32_t format
   return growth * chip_size(c);
 }
 
-/// What the sender said it is, or what it must be.
+/// What the sender gave, or what it must be.
 Eigen::Array2d fake_chip(const CameraConstants& c, std::uint32_t format) noexcept {
   const Eigen::Array2d sent(c.fake_chip_width, c.fake_chip_height);
   return sent.isFinite().all() && (sent > 0).all() ? sent : computed_fake_chip(c, format);
@@ -123,7 +122,7 @@ Result<Eigen::Array2d> center_of(const Eigen::Vector2d& shift, const ShiftTerms&
 }
 
 /// Whether numbers read under `a` mean the same under `b` although their options agree. Where either cannot be known,
-/// there are no constants by which a receiver could tell a difference.
+/// there are no constants by which a receiver could see a difference.
 template <typename Terms>
 bool same_meaning(const Result<Terms>& a, const Result<Terms>& b) noexcept {
   return !a || !b || *a == *b;

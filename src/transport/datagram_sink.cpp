@@ -1,4 +1,4 @@
-#include "datagram_sink.h"
+#include "datagram.h"
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -9,12 +9,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "descriptor.h"
-#include "multicast.h"
-#include "socket_address.h"
-#include "socket_option.h"
+#include "scheme.h"
+#include "socket.h"
 #include "trk_bridge/transport/source.h"
-#include "url.h"
 
 namespace trk_bridge::transport {
 namespace {

@@ -13,7 +13,7 @@
 #include <rosbag/view.h>
 
 #include "bag/convert.h"
-#include "file/take_file.h"
+#include "file/take.h"
 #include "temporary_directory.h"
 #include "trk_bridge/wire/codec.h"
 #include "vectors.h"

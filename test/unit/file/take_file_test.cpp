@@ -1,4 +1,4 @@
-#include "file/take_file.h"
+#include "file/take.h"
 
 #include <string>
 #include <vector>

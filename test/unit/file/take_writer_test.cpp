@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "file/take_file.h"
+#include "file/take.h"
 #include "temporary_directory.h"
 #include "trk_bridge/transport/source.h"
 #include "vectors.h"

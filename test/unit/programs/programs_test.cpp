@@ -6,12 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "file/take_file.h"
+#include "file/take.h"
 #include "free_slot.h"
 #include "program.h"
+#include "reserved_port.h"
 #include "temporary_directory.h"
 #include "trk_bridge/camera/camera.h"
-#include "udp.h"
 #include "vectors.h"
 
 namespace trk_bridge::programs {
@@ -127,9 +127,9 @@ TEST(Memory, write_mem_to_read_mem) {
 
 TEST(Net, write_net_to_read_net) {
   for (const char* encoding : {"ascii", "binary"}) {
-    const std::string port = std::to_string(test::PlainSocket().port());
-    test::Program reader({program("read_net"), port});
-    test::Program writer({program("write_net"), "127.0.0.1", port, encoding});
+    const test::ReservedPort port;
+    test::Program reader({program("read_net"), port.text()});
+    test::Program writer({program("write_net"), "127.0.0.1", port.text(), encoding});
     expect_transfer(writer, reader);
   }
 }

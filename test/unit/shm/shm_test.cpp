@@ -10,7 +10,7 @@
 
 #include "free_slot.h"
 #include "shm/scheme.h"
-#include "shm/shm_segment.h"
+#include "shm/segment.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
@@ -55,7 +55,7 @@ wire::CameraConstants constants(int width = 720) {
 class Shm : public ::testing::Test {
  protected:
   std::string url(const std::string& options = "") const { return "shm:" + std::to_string(slot.number()) + options; }
-  const ShmLayout& document() const { return *shm_layout_of_size(528); }
+  const SegmentLayout& document() const { return *layout_of_size(528); }
 
   /// Receives for as long as the source has something or `done` is not true.
   ::testing::AssertionResult receive_until(Source& source, const std::function<bool(const Sample&)>& done) {
@@ -179,10 +179,10 @@ TEST_F(Shm, the_last_one_removes_segment_and_file) {
 }
 
 TEST_F(Shm, connected_counts_handles_and_attachments_are_the_truth) {
-  auto first = ShmSegment::attach_or_create(slot.number(), document(), 0666);
+  auto first = Segment::attach_or_create(slot.number(), document(), 0666);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->connected(), 1);
-  auto second = ShmSegment::attach(slot.number());
+  auto second = Segment::attach(slot.number());
   ASSERT_TRUE(second);
   EXPECT_EQ(first->connected(), 2);
   second->close();
@@ -246,9 +246,9 @@ TEST_F(Shm, a_sink_makes_a_removed_segment_anew_with_its_constants) {
   ASSERT_TRUE(sink->write(constants()));
   slot.remove();
   ASSERT_TRUE(sink->write(params(9)));
-  const auto reader = ShmSegment::attach(slot.number());
+  const auto reader = Segment::attach(slot.number());
   ASSERT_TRUE(reader);
-  ShmImage image;
+  RecordImage image;
   ASSERT_TRUE(reader->copy_params(image));
   EXPECT_EQ(*wire::params_from_image(image.view(), reader->layout().record), params(9));
   ASSERT_TRUE(reader->copy_constants(image));
@@ -269,12 +269,12 @@ TEST_F(Shm, recreate_makes_a_fresh_segment_when_all_others_have_left) {
   EXPECT_NE(second, first);
   ASSERT_TRUE(sink->write(params(3)));
   EXPECT_EQ(slot.segment(), second) << "once is enough";
-  const auto reader = ShmSegment::attach(slot.number());
+  const auto reader = Segment::attach(slot.number());
   ASSERT_TRUE(reader);
   EXPECT_EQ(reader->connected(), 2);
   EXPECT_EQ(reader->params_counter(), 3);
   EXPECT_EQ(reader->constants_counter(), 1);
-  ShmImage image;
+  RecordImage image;
   ASSERT_TRUE(reader->copy_constants(image));
   EXPECT_EQ(*wire::constants_from_image(image.view(), reader->layout().record), constants());
 }

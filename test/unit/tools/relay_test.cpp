@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "file/take_file.h"
+#include "file/take.h"
 #include "memory_feed.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "file/take_file.h"
+#include "file/take.h"
 #include "program.h"
 #include "temporary_directory.h"
 #include "udp.h"

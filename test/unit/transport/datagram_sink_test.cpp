@@ -1,5 +1,5 @@
 // A sink over a small protocol of this test: what one record may become, and constants that are repeated.
-#include "transport/datagram_sink.h"
+#include "transport/datagram.h"
 
 #include <cerrno>
 #include <deque>

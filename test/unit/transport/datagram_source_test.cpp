@@ -1,5 +1,5 @@
 // A source over a small protocol of this test: what one datagram may give.
-#include "transport/datagram_source.h"
+#include "transport/datagram.h"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "trk_bridge/transport/fault.h"
+#include "trk_bridge/transport/sample.h"
 
 #include <set>
 #include <string>

@@ -1,4 +1,4 @@
-#include "transport/origin.h"
+#include "trk_bridge/transport/sample.h"
 
 #include <set>
 #include <string>

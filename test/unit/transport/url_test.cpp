@@ -1,4 +1,4 @@
-#include "transport/url.h"
+#include "transport/scheme.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
