@@ -1,8 +1,8 @@
 // What a sample costs on its way through the camera layer.
 #include <benchmark/benchmark.h>
 
-#include "trk_bridge/camera/calibration.h"
 #include "camera/figure.h"
+#include "trk_bridge/camera/calibration.h"
 #include "trk_bridge/camera/converter.h"
 #include "trk_bridge/camera/image.h"
 #include "trk_bridge/wire/format.h"

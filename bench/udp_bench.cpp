@@ -6,12 +6,19 @@
 #include <memory>
 #include <string>
 
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::transport {
+namespace trk_bridge {
 namespace {
+
+using endpoints::open_sink;
+using endpoints::open_source;
+using transport::Event;
+using transport::Reception;
+using transport::Source;
 
 wire::CameraParams euler_params() {
   wire::CameraParams params;
@@ -89,6 +96,6 @@ void BM_Write(benchmark::State& state) {
 BENCHMARK(BM_Write)->ArgName("binary")->Arg(0)->Arg(1);
 
 }  // namespace
-}  // namespace trk_bridge::transport
+}  // namespace trk_bridge
 
 BENCHMARK_MAIN();

@@ -47,6 +47,7 @@ catkin_package(
     visualization_msgs
     xmlrpcpp
   DEPENDS EIGEN3
+  CFG_EXTRAS trk_bridge-extras.cmake
 )
 
 set(TRK_BRIDGE_LIB_DIR ${CATKIN_PACKAGE_LIB_DESTINATION})
@@ -65,6 +66,9 @@ if(in_own_build_folder EQUAL 0)
 endif()
 set(TRK_BRIDGE_INCLUDE_DIR ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 set(TRK_BRIDGE_SHARE_DIR ${CATKIN_PACKAGE_SHARE_DESTINATION})
+# Where catkin_package() puts its own.
+set(TRK_BRIDGE_CMAKE_DIR ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
 
+install(DIRECTORY include/trk_bridge/ros DESTINATION ${TRK_BRIDGE_INCLUDE_DIR}/trk_bridge FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY config launch urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} PATTERN presets.yaml EXCLUDE)
 install(FILES nodelets.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -14,17 +14,27 @@ if(NOT TRK_BRIDGE_HAS_FROM_CHARS)
 endif()
 
 add_library(trk_bridge_options INTERFACE)
-target_compile_options(trk_bridge_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+target_compile_options(trk_bridge_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+  $<$<BOOL:${TRK_BRIDGE_WERROR}>:-Werror>)
 
-# trk_bridge_library(NAME SOURCE... [PUBLIC LIB...] [PRIVATE LIB...]): a layer, shared and installed.
+# trk_bridge_library(NAME SOURCE... [EXPORT_AS ROOM] [PUBLIC LIB...] [PRIVATE LIB...]): a layer, shared and installed.
+# With EXPORT_AS it is the target trk_bridge::ROOM, for other projects as well.
 function(trk_bridge_library name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "EXPORT_AS" "PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} SHARED ${ARG_UNPARSED_ARGUMENTS})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} trk_bridge_options)
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN")
-  install(TARGETS ${name} LIBRARY DESTINATION ${TRK_BRIDGE_LIB_DIR} ARCHIVE DESTINATION ${TRK_BRIDGE_LIB_DIR})
+  set(export)
+  if(ARG_EXPORT_AS)
+    add_library(trk_bridge::${ARG_EXPORT_AS} ALIAS ${name})
+    set_target_properties(${name} PROPERTIES EXPORT_NAME ${ARG_EXPORT_AS})
+    set(export EXPORT trk_bridge)
+  endif()
+  install(TARGETS ${name} ${export}
+    LIBRARY DESTINATION ${TRK_BRIDGE_LIB_DIR} ARCHIVE DESTINATION ${TRK_BRIDGE_LIB_DIR}
+    INCLUDES DESTINATION ${TRK_BRIDGE_INCLUDE_DIR})
 endfunction()
 
 # trk_bridge_program(NAME SOURCE... [LIBS LIB...]): an installed program.

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Sums a ctest run of this project to one line, "N passed, N failed", and exits 1 if anything failed.
 
-Usage: count_results.py BUILD. Tests that catkin runs leave a JUnit file of their cases in BUILD/test_results; every other
-test of ctest counts as one case. A test that failed without a failed case (it crashed, or left no file) counts as one, too.
+Usage: count_results.py BUILD [STEP...]. Tests that catkin runs leave a JUnit file of their cases in BUILD/test_results; every other
+test of ctest counts as one case. A test that failed without a failed case (it crashed, or left no file) counts as one, too,
+as does each STEP, the name of something else that failed. That no test ran at all is a failure.
 """
 
 import pathlib
@@ -41,7 +42,7 @@ def ctests_of(build):
 
 
 def main():
-    build = pathlib.Path(sys.argv[1])
+    build, steps = pathlib.Path(sys.argv[1]), sys.argv[2:]
     passed, failed = cases_of(build / "test_results")
     ran, broken = ctests_of(build)
     with_cases = [name for name in ran if name.startswith("_ctest_")]
@@ -50,8 +51,9 @@ def main():
     failed += len([name for name in plain if name in broken])
     if failed == 0:
         failed += len([name for name in with_cases if name in broken])
+    failed += len(steps) + (0 if ran else 1)
     print(f"{passed} passed, {failed} failed")
-    return 1 if failed or not ran else 0
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ TRK_PUBLIC trkError trkMemClose(trkHandle handle);
 TRK_PUBLIC void trkMemCloseAll(void);
 
 /* The newest parameters written since the handle was opened and not read with it yet, at once. Memory that was removed
- * and made anew is followed. trkInvalidVersion once for a set that is not sound. */
+ * and created again is attached to. trkInvalidVersion once for a set that is not sound. */
 TRK_PUBLIC trkError trkMemReadParams(trkHandle handle, trkCameraParams* params);
 
 /* The constants in the memory if they are new to this handle, those written before it was opened included. */

@@ -28,7 +28,7 @@ TRK_PUBLIC trkError trkNetClose(trkHandle handle);
 TRK_PUBLIC trkError trkNetReadParams(trkHandle handle, trkCameraParams* params);
 
 /* Parameters whose counter is `numPassed` past that of the last ones, from those that have arrived (up to 16 are kept).
- * When they have not: the next ones after; the newest, when the count was begun anew or more than `numTolerated` sets
+ * When they have not: the next ones after; the newest, when counting restarted or more than `numTolerated` sets
  * are in store beyond. Both numbers must not be negative. Does not wait. */
 TRK_PUBLIC trkError trkNetBufReadParams(trkHandle handle, trkCameraParams* params, int numPassed, int numTolerated);
 

@@ -103,7 +103,7 @@ TRK_PUBLIC trkError trkStringToConstants(const char* string, trkCameraConstants*
 TRK_PUBLIC trkError trkFormatToString(unsigned format, char* buffer, size_t size);
 
 /* The mask that identifiers name, in any case and order, separated by white space; none is 0. Of two opposite ones the
- * last counts. trkFailed, and the mask left as it was, for a word that is none. */
+ * last counts. trkFailed, and the mask left as it was, for an unknown word. */
 TRK_PUBLIC trkError trkStringToFormat(const char* string, unsigned* format);
 
 #ifdef __cplusplus

@@ -8,14 +8,16 @@
 #include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "bag_take.h"
-#include "bag_timing.h"
+#include "base/time_text.h"
 #include "bridge/camera_pipeline.h"
 #include "bridge/stamper.h"
+#include "cli/number_text.h"
+#include "convert.h"
 #include "file/part_file.h"
-#include "file/take_file.h"
+#include "file/take.h"
 #include "ros/camera_messages.h"
 #include "ros/trk_to_ros_parameters.h"
+#include "timing.h"
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/ros/messages.h"
 #include "trk_bridge/transport/source.h"
@@ -59,14 +61,11 @@ bridge::CameraPipeline pipeline_of(const TakeToBagOptions& options) {
 class TakeCamera {
  public:
   explicit TakeCamera(const TakeToBagOptions& options)
-      : topics_("/" + options.camera + "/"),
-        frames_(frames_of(options)),
-        pipeline_(pipeline_of(options)),
-        messages_(frames_) {
+      : name_(options.camera), frames_(frames_of(options)), pipeline_(pipeline_of(options)), messages_(frames_) {
     sample_.sender.kind = transport::SenderKind::file;
   }
 
-  std::string topic(const char* last) const { return topics_ + last; }
+  std::string topic(const char* last) const { return topic_of(name_, last); }
   geometry_msgs::TransformStamped optical_transform(std::int64_t stamp) const {
     return ros1::optical_transform(frames_, ros1::to_time(stamp));
   }
@@ -83,7 +82,7 @@ class TakeCamera {
   const bridge::CameraStatistics& statistics() const noexcept { return pipeline_.statistics(); }
 
  private:
-  const std::string topics_;
+  const std::string name_;
   const ros1::CameraFrames frames_;
   transport::Sample sample_;
   bridge::CameraPipeline pipeline_;
@@ -96,7 +95,7 @@ class Schedule {
   Schedule(const base::TimeCode& code, const TakeToBagOptions& options)
       : rate_(options.field_rate), code_(options.start ? base::TimeCode{} : code) {
     const auto of_code = base::nanoseconds_of(code, rate_, 0);
-    if (!of_code && !options.start) throw BagError(of_code.error() + "; say --field-rate HZ, or --start TIME");
+    if (!of_code && !options.start) throw BagError(of_code.error() + "; set --field-rate HZ, or --start TIME");
     base_ = options.start.value_or(options.midnight);
     if (of_code) zero_ = options.start ? base_ - *of_code : base_;
   }
@@ -112,13 +111,13 @@ class Schedule {
   std::optional<std::int64_t> zero_;
 };
 
-/// Writes messages as a recorder would have got them from trk_to_ros. Connection headers are made here, for the order
-/// in which a recorder meets publishers is chance.
+/// Writes messages as a recorder would have got them from trk_to_ros. Connection headers are made here, because a
+/// recorder meets publishers in a random order.
 class Recording {
  public:
   Recording(const std::string& path, const TakeToBagOptions& options, std::optional<std::int64_t> zero)
       : caller_("/" + options.camera + "/trk_to_ros") {
-    extra_[field_rate_key] = rate_text(options.field_rate);
+    extra_[field_rate_key] = cli::number_text(options.field_rate);
     if (zero) extra_[time_code_zero_key] = std::to_string(*zero);
     bag_.open(path, rosbag::bagmode::Write);
     bag_.setCompression(options.compression == "bz2"   ? rosbag::compression::BZ2
@@ -156,7 +155,7 @@ class Recording {
   rosbag::Bag bag_;
 };
 
-void tell(const bridge::CameraStatistics& statistics, std::ostream& err) {
+void report(const bridge::CameraStatistics& statistics, std::ostream& err) {
   const auto line = [&err](std::uint64_t times, const std::string& what) {
     if (times > 0) err << "trk: " << times << " fields " << what << '\n';
   };
@@ -175,7 +174,7 @@ void record(const file::Take& take, const Schedule& schedule, TakeCamera& camera
             cli::LongRun& run) {
   const std::int64_t begin = schedule.at(0);
   if (!bridge::can_be_stamp(begin) || !bridge::can_be_stamp(schedule.at(take.params.size()))) {
-    throw BagError("its fields are outside of 1970 to 2106, which is what ROS can tell");
+    throw BagError("its fields are outside of 1970 to 2106, the range of ROS time");
   }
   const auto& messages = camera.messages();
   recording.write("/tf_static", camera.optical_transform(begin), /*is_latched=*/true);
@@ -215,10 +214,10 @@ void bag_of_take(const std::string& take_path, const std::string& bag_path, cons
       throw transport::TransportError(bag_path +
                                       ": cannot be written: " + std::system_category().message(published.error()));
     }
-    tell(camera.statistics(), err);
+    report(camera.statistics(), err);
     err << "trk: " << bag_path << ": " << camera.statistics().sequence.accepted << " fields of camera "
-        << options.camera << ", from " << stamp_text(schedule.at(0)) << " at " << rate_text(options.field_rate)
-        << " fields a second\n";
+        << options.camera << ", from " << base::seconds_text(schedule.at(0)) << " at "
+        << cli::number_text(options.field_rate) << " fields a second\n";
   } catch (const BagError& error) {
     throw BagError(take_path + ": " + error.what());
   } catch (const rosbag::BagException& error) {

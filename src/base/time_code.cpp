@@ -70,7 +70,7 @@ tl::expected<std::int64_t, std::string> nanoseconds_of(const TimeCode& code, dou
 
 tl::expected<TimeCode, std::string> time_code_at(std::int64_t nanoseconds, double field_rate) {
   const auto refuse = [&](const std::string& why) {
-    return tl::unexpected("no time code tells " + std::to_string(nanoseconds) + " ns after midnight at " +
+    return tl::unexpected("no time code expresses " + std::to_string(nanoseconds) + " ns after midnight at " +
                           std::to_string(field_rate) + " fields a second: " + why);
   };
   if (nanoseconds < 0) return refuse("it is before midnight");

@@ -20,7 +20,7 @@ class ParamsRing {
 
   /// The newest, and none of what came before it. None when nothing has arrived since.
   std::optional<wire::CameraParams> take_newest() noexcept;
-  /// The set `passed` counts after the one taken last, if that can be told and at most `tolerated` are ahead of it;
+  /// The set `passed` counts after the one taken last, if there is one and at most `tolerated` are ahead of it;
   /// both must not be negative.
   std::optional<wire::CameraParams> take_paced(std::uint64_t passed, std::uint64_t tolerated) noexcept;
 

@@ -8,10 +8,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "file/take.h"
 #include "handles.h"
 #include "records.h"
 #include "trk_bridge/transport/source.h"
-#include "file/take_file.h"
 
 namespace trk_bridge::c_api {
 namespace {

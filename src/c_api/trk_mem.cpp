@@ -6,33 +6,33 @@
 
 #include "handles.h"
 #include "records.h"
-#include "shm/shm_link.h"
+#include "shm/link.h"
 
 namespace trk_bridge::c_api {
 namespace {
 
-using shm::ShmFault;
-using shm::ShmLink;
-using shm::ShmProblem;
-using shm::ShmRead;
+using shm::Link;
+using shm::ReadResult;
+using shm::SlotFault;
+using shm::SlotProblem;
 
 std::atomic<unsigned> configured{trkMemDefault};
 
 /// A slot of the handle's own; the segment is found and kept by the transport.
-using Memory = ShmLink;
+using Memory = Link;
 
-ShmLink::Options options_for(int slot) {
+Link::Options options_for(int slot) {
   // The field's own programs on a 64-bit machine make and find the same.
   constexpr std::size_t document_lp64 = 528;
-  ShmLink::Options options;
+  Link::Options options;
   options.slot = slot;
-  options.create = shm::shm_layout_of_size(document_lp64);
+  options.create = shm::layout_of_size(document_lp64);
   options.recreate = (configured.load() & trkMemRecreate) != 0;
   return options;
 }
 
-trkError error_of(const ShmFault& fault) noexcept {
-  if (fault.problem == ShmProblem::foreign) return trkInvalidVersion;
+trkError error_of(const SlotFault& fault) noexcept {
+  if (fault.problem == SlotProblem::foreign) return trkInvalidVersion;
   return trkFailed;
 }
 
@@ -41,18 +41,18 @@ trkError read(trkHandle handle, CRecord* into) {
   return guarded([&] {
     return handles<Memory>().with(handle, [&](Memory& memory) {
       if (into == nullptr) return trkFailed;
-      if (const auto kept = memory.keep(ShmLink::Clock::now()); !kept) {
+      if (const auto kept = memory.keep(Link::Clock::now()); !kept) {
         return shm::is_absence(kept.error().problem) ? trkUnavailable : error_of(kept.error());
       }
       Record record;
       wire::Fault fault{};
       switch (memory.read(record, fault)) {
-        case ShmRead::fresh:
+        case ReadResult::fresh:
           *into = to_c(record);
           return trkOK;
-        case ShmRead::malformed:
+        case ReadResult::malformed:
           return trkInvalidVersion;
-        case ShmRead::nothing:
+        case ReadResult::nothing:
           break;
       }
       return trkUnavailable;
@@ -65,7 +65,7 @@ trkError write(trkHandle handle, const CRecord* record) {
   return guarded([&] {
     return handles<Memory>().with(handle, [&](Memory& memory) {
       if (!is_writable(record)) return trkFailed;
-      if (const auto kept = memory.keep_for_writing(ShmLink::Clock::now()); !kept) return error_of(kept.error());
+      if (const auto kept = memory.keep_for_writing(Link::Clock::now()); !kept) return error_of(kept.error());
       if (!memory.segment()->writable()) return trkFailed;
       return memory.write(from_c(*record)) ? trkOK : trkFailed;
     });
@@ -89,7 +89,7 @@ trkError trkMemConfigure(unsigned flags) {
 
 trkError trkMemOpen(int slot, trkHandle* handle) {
   return guarded([&] {
-    if (handle == nullptr || slot < 0 || slot >= shm::shm_slots) return trkFailed;
+    if (handle == nullptr || slot < 0 || slot >= shm::slot_count) return trkFailed;
     Memory memory(c_api::options_for(slot));
     if (const auto open = memory.keep_for_writing(Memory::Clock::now()); !open) return c_api::error_of(open.error());
     static std::once_flag registered;

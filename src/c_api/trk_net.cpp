@@ -21,9 +21,9 @@ constexpr int most_datagrams = 4096;
 bool is_port(int port) noexcept { return port >= 1 && port <= std::numeric_limits<std::uint16_t>::max(); }
 
 /// One receiving port and what arrived there.
-class Receiver {
+class NetReader {
  public:
-  explicit Receiver(std::unique_ptr<transport::Source> source) : source_(std::move(source)) {}
+  explicit NetReader(std::unique_ptr<transport::Source> source) : source_(std::move(source)) {}
 
   trkError read(trkCameraParams& into) {
     const bool works = drain();
@@ -85,21 +85,21 @@ class Receiver {
   bool unsound_ = false;
 };
 
-using Sender = std::unique_ptr<transport::Sink>;
+using NetWriter = std::unique_ptr<transport::Sink>;
 
-/// `read(receiver)` with the handle's receiver.
+/// `read(reader)` with the handle's port.
 template <typename Read>
 trkError receive(trkHandle handle, bool sound_arguments, Read&& read) {
   return guarded([&] {
-    return handles<Receiver>().with(handle,
-                                    [&](Receiver& receiver) { return sound_arguments ? read(receiver) : trkFailed; });
+    return handles<NetReader>().with(handle,
+                                     [&](NetReader& reader) { return sound_arguments ? read(reader) : trkFailed; });
   });
 }
 
 template <typename CRecord>
 trkError send(trkHandle handle, const CRecord* record) {
   return guarded([&] {
-    return handles<Sender>().with(handle, [&](Sender& sink) {
+    return handles<NetWriter>().with(handle, [&](NetWriter& sink) {
       if (!is_writable(record)) return trkFailed;
       return sink->write(from_c(*record)) ? trkOK : trkFailed;
     });
@@ -112,15 +112,15 @@ trkError send(trkHandle handle, const CRecord* record) {
 using namespace trk_bridge;
 using c_api::guarded;
 using c_api::handles;
-using c_api::Receiver;
-using c_api::Sender;
+using c_api::NetReader;
+using c_api::NetWriter;
 
 trkError trkNetOpenRead(int localPort, trkHandle* handle) {
   return guarded([&] {
     if (handle == nullptr || !c_api::is_port(localPort)) return trkFailed;
     trk::UdpSourceSettings settings;
     settings.port = static_cast<std::uint16_t>(localPort);
-    *handle = handles<Receiver>().open(trk::open_udp_source(settings));
+    *handle = handles<NetReader>().open(trk::open_udp_source(settings));
     return trkOK;
   });
 }
@@ -135,32 +135,32 @@ trkError trkNetOpenWrite(const char* remoteHost, int remotePort, int binary, trk
     settings.port = static_cast<std::uint16_t>(remotePort);
     settings.binary = binary != 0;
     settings.layout.generation = wire::Generation::document;
-    *handle = handles<Sender>().open(trk::open_udp_sink(settings));
+    *handle = handles<NetWriter>().open(trk::open_udp_sink(settings));
     return trkOK;
   });
 }
 
 trkError trkNetClose(trkHandle handle) {
   return guarded([&] {
-    const trkError closed = handles<Receiver>().close(handle, [](Receiver&) { return trkOK; });
+    const trkError closed = handles<NetReader>().close(handle, [](NetReader&) { return trkOK; });
     if (closed != trkInvalidHandle) return closed;
-    return handles<Sender>().close(handle, [](Sender& sink) { return sink->close() ? trkOK : trkFailed; });
+    return handles<NetWriter>().close(handle, [](NetWriter& sink) { return sink->close() ? trkOK : trkFailed; });
   });
 }
 
 trkError trkNetReadParams(trkHandle handle, trkCameraParams* params) {
-  return c_api::receive(handle, params != nullptr, [&](Receiver& receiver) { return receiver.read(*params); });
+  return c_api::receive(handle, params != nullptr, [&](NetReader& reader) { return reader.read(*params); });
 }
 
 trkError trkNetBufReadParams(trkHandle handle, trkCameraParams* params, int numPassed, int numTolerated) {
   const bool sound = params != nullptr && numPassed >= 0 && numTolerated >= 0;
-  return c_api::receive(handle, sound, [&](Receiver& receiver) {
-    return receiver.read_paced(*params, static_cast<unsigned>(numPassed), static_cast<unsigned>(numTolerated));
+  return c_api::receive(handle, sound, [&](NetReader& reader) {
+    return reader.read_paced(*params, static_cast<unsigned>(numPassed), static_cast<unsigned>(numTolerated));
   });
 }
 
 trkError trkNetReadConstants(trkHandle handle, trkCameraConstants* constants) {
-  return c_api::receive(handle, constants != nullptr, [&](Receiver& receiver) { return receiver.read(*constants); });
+  return c_api::receive(handle, constants != nullptr, [&](NetReader& reader) { return reader.read(*constants); });
 }
 
 trkError trkNetWriteParams(trkHandle handle, const trkCameraParams* params) { return c_api::send(handle, params); }

@@ -1,7 +1,6 @@
 #include "trk_bridge/camera/converter.h"
 
-#include "lens.h"
-#include "pose.h"
+#include "params.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::camera {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "degrees.h"
+#include "numeric.h"
 #include "opencv_lens.h"
 
 namespace trk_bridge::camera {
@@ -66,11 +66,11 @@ bool operator==(const ViewingLens& a, const ViewingLens& b) noexcept {
 
 bool operator!=(const ViewingLens& a, const ViewingLens& b) noexcept { return !(a == b); }
 
-Result<ImageBorder> image_border(const ViewingLens& told) noexcept {
-  const Result<OpenCvLens> lens = opencv_lens(told.k, told.d);
+Result<ImageBorder> image_border(const ViewingLens& viewing) noexcept {
+  const Result<OpenCvLens> lens = opencv_lens(viewing.k, viewing.d);
   if (!lens) return tl::unexpected(lens.error());
-  if (told.width == 0 || told.height == 0) return tl::unexpected(CameraReason::bad_calibration);
-  auto distorted = border_pixels(told.width, told.height);
+  if (viewing.width == 0 || viewing.height == 0) return tl::unexpected(CameraReason::bad_calibration);
+  auto distorted = border_pixels(viewing.width, viewing.height);
   double reach = 0;
   for (auto& point : distorted) {
     point = lens->on_image(point);

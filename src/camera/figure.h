@@ -46,7 +46,7 @@ struct ImageBorder {
 /// The widest angle off the optical axis that is drawn, degrees: beyond it a border at any depth is far away.
 inline constexpr double widest_drawn_angle = 89;
 
-/// Farther off than this (m) a plane in focus is not drawn: lenses tell "infinity" in many numbers.
+/// Farther off than this (m) a plane in focus is not drawn: lenses give "infinity" as many different numbers.
 inline constexpr double farthest_focus = 1000;
 
 /// Whether a plane in focus at `focdist` (m) is drawn: more than 0, at most farthest_focus.

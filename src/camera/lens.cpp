@@ -1,8 +1,8 @@
-#include "lens.h"
-
 #include <cmath>
 
-#include "degrees.h"
+#include "numeric.h"
+#include "params.h"
+#include "trk_bridge/camera/image.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::camera {
@@ -33,7 +33,7 @@ Eigen::Array2d computed_fake_chip(const CameraConstants& c, std::uint32_t format
   return growth * chip_size(c);
 }
 
-/// What the sender said it is, or what it must be.
+/// What the sender gave, or what it must be.
 Eigen::Array2d fake_chip(const CameraConstants& c, std::uint32_t format) noexcept {
   const Eigen::Array2d sent(c.fake_chip_width, c.fake_chip_height);
   return sent.isFinite().all() && (sent > 0).all() ? sent : computed_fake_chip(c, format);
@@ -82,13 +82,10 @@ Result<double> image_distance_of(double fov, const FovTerms& terms) noexcept {
 }
 
 Result<double> fov_of(double distance, const FovTerms& terms) noexcept {
+  if (terms.side > 0) return field_of_view(distance, terms.side);
   if (!std::isfinite(distance)) return tl::unexpected(CameraReason::not_finite);
   if (!(distance > 0)) return tl::unexpected(CameraReason::bad_field_of_view);
-  if (!(terms.side > 0)) return distance;
-  const double angle = 2 * std::atan2(terms.side / 2, distance) * degrees_per_radian;
-  // An image distance far from any lens can round to 0 or 180 degrees, which nobody could read back.
-  if (!(angle > 0 && angle < 180)) return tl::unexpected(CameraReason::bad_field_of_view);
-  return angle;
+  return distance;
 }
 
 bool operator==(const ShiftTerms& a, const ShiftTerms& b) noexcept {
@@ -125,7 +122,7 @@ Result<Eigen::Array2d> center_of(const Eigen::Vector2d& shift, const ShiftTerms&
 }
 
 /// Whether numbers read under `a` mean the same under `b` although their options agree. Where either cannot be known,
-/// there are no constants by which a receiver could tell a difference.
+/// there are no constants by which a receiver could see a difference.
 template <typename Terms>
 bool same_meaning(const Result<Terms>& a, const Result<Terms>& b) noexcept {
   return !a || !b || *a == *b;

@@ -1,5 +1,5 @@
-// K and D of a CameraInfo: the lens as OpenCV tells it, undistorted to distorted, and its inverse. Points and radii are
-// in units of the image distance, x right, y down.
+// K and D of a CameraInfo: the lens in the terms of OpenCV, undistorted to distorted, and its inverse. Points and radii
+// are in units of the image distance, x right, y down.
 #pragma once
 
 #include <array>

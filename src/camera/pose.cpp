@@ -1,11 +1,10 @@
-#include "pose.h"
-
 #include <array>
 #include <cmath>
 
 #include <Eigen/LU>
 
-#include "degrees.h"
+#include "numeric.h"
+#include "params.h"
 #include "trk_bridge/wire/codec.h"
 #include "trk_bridge/wire/format.h"
 

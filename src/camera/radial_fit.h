@@ -1,10 +1,10 @@
-// Radial distortion from undistorted to distorted as OpenCV tells it, fitted to the document's polynomial. Scale-free:
-// all radii are in units of the farthest undistorted one.
+// Radial distortion from undistorted to distorted in the terms of OpenCV, fitted to the document's polynomial.
+// Scale-free: all radii are in units of the farthest undistorted one.
 #pragma once
 
 #include <array>
 
-#include "root.h"
+#include "numeric.h"
 #include "trk_bridge/camera/calibration.h"
 
 namespace trk_bridge::camera {

@@ -22,7 +22,8 @@ StopSignals::StopSignals(transport::Source* source) {
   to_stop.store(source);
   struct sigaction stop {};
   stop.sa_handler = trk_bridge_stop;
-  stop.sa_flags = SA_RESETHAND | SA_RESTART;
+  // The first flag is the highest bit.
+  stop.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   ::sigaction(SIGINT, &stop, &interrupt_);
   ::sigaction(SIGTERM, &stop, &terminate_);
   struct sigaction ignore {};

@@ -67,7 +67,7 @@ Eigen::Vector3d head_of(const Place& place) {
                                  length * std::sin(place.elevation) - head_below_mount);
 }
 
-camera::Lens lens_of(double image_distance, double focus_distance) {
+camera::Lens lens_at(double image_distance, double focus_distance) {
   constexpr double widest = 8;  // mm
   const double wide = widest / image_distance;
   camera::Lens lens;
@@ -92,7 +92,7 @@ Moment moment_at(double seconds) noexcept {
 
   Moment moment;
   moment.joints = {place.pan, place.elevation, place.extension, head_pan, head_tilt, place.roll};
-  moment.lens = lens_of(place.image_distance, sight.norm() - projection_ahead);
+  moment.lens = lens_at(place.image_distance, sight.norm() - projection_ahead);
   moment.target = place.target;
   return moment;
 }

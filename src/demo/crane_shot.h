@@ -1,4 +1,4 @@
-// The example crane in motion: joint states, and what its camera's lens tells.
+// The example crane in motion: joint states, and its camera's lens.
 #pragma once
 
 #include <condition_variable>

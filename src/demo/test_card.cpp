@@ -86,20 +86,20 @@ void TestCard::take(const sensor_msgs::CameraInfoConstPtr& message) {
 
 bool TestCard::render(const trk_bridge::CameraParams& params) {
   if (!constants_) {
-    picture_trouble_.tell("no constants yet, no picture without");
+    picture_trouble_.report("no constants yet, no picture without");
     return false;
   }
   const auto view = demo::View::of(ros1::from_msg(params), *constants_);
   if (!view) {
-    picture_trouble_.tell("no picture: " + camera::describe(view.error()));
+    picture_trouble_.report("no picture: " + camera::describe(view.error()));
     return false;
   }
   if (std::int64_t{view->width()} * view->height() > most_pixels) {
-    picture_trouble_.tell("no picture: " + std::to_string(view->width()) + " x " + std::to_string(view->height()) +
-                          " pixels are more than " + std::to_string(most_pixels));
+    picture_trouble_.report("no picture: " + std::to_string(view->width()) + " x " + std::to_string(view->height()) +
+                            " pixels are more than " + std::to_string(most_pixels));
     return false;
   }
-  picture_trouble_.tell("");
+  picture_trouble_.report("");
   image_.header.stamp = params.header.stamp;
   cv::Mat picture = picture_of(image_, view->width(), view->height());
   demo::draw(figure_, *view, picture);
@@ -120,15 +120,15 @@ void TestCard::rectify_when_told() {
   try {
     rectify(**found);
   } catch (const std::exception& error) {
-    rectification_trouble_.tell(std::string("camera_info does not rectify the picture: ") + error.what());
+    rectification_trouble_.report(std::string("camera_info does not rectify the picture: ") + error.what());
   }
 }
 
 void TestCard::rectify(const sensor_msgs::CameraInfo& info) {
   if (info.width != image_.width || info.height != image_.height) {
-    rectification_trouble_.tell("camera_info is of " + std::to_string(info.width) + " x " +
-                                std::to_string(info.height) + " pixels, constants of " + std::to_string(image_.width) +
-                                " x " + std::to_string(image_.height));
+    rectification_trouble_.report("camera_info is of " + std::to_string(info.width) + " x " +
+                                  std::to_string(info.height) + " pixels, constants of " +
+                                  std::to_string(image_.width) + " x " + std::to_string(image_.height));
     return;
   }
   const int width = static_cast<int>(image_.width), height = static_cast<int>(image_.height);
@@ -143,12 +143,12 @@ void TestCard::rectify(const sensor_msgs::CameraInfo& info) {
     paired_infos_.publish(straight);
     paired_images_.publish(rectified_);
   }
-  rectification_trouble_.tell("");
+  rectification_trouble_.report("");
 }
 
-void TestCard::Trouble::tell(const std::string& now) {
-  if (now == told) return;
-  told = now;
+void TestCard::Trouble::report(const std::string& now) {
+  if (now == reported) return;
+  reported = now;
   if (!now.empty()) ROS_WARN_STREAM("test card: " << now);
 }
 

@@ -1,4 +1,4 @@
-// The node that makes the pictures of a tracked camera out of what is told of it, to see whether that is right.
+// The node that makes the pictures of a tracked camera out of what is published about it, to see whether that is right.
 #pragma once
 
 #include <chrono>
@@ -45,8 +45,8 @@ class TestCard {
 
   /// What is wrong, "" for nothing: logged when it changes.
   struct Trouble {
-    std::string told;
-    void tell(const std::string& now);
+    std::string reported;
+    void report(const std::string& now);
   };
 
   demo::Figure figure_;

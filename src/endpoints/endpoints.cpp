@@ -43,7 +43,8 @@ struct Parsed {
 tl::expected<Parsed, std::string> parsed(std::string_view text) {
   auto url = transport::split_url(text);
   if (!url) return tl::make_unexpected(url.error());
-  const auto scheme = std::find_if(schemes.begin(), schemes.end(), [&](const Scheme* s) { return s->name == url->scheme; });
+  const auto scheme =
+      std::find_if(schemes.begin(), schemes.end(), [&](const Scheme* s) { return s->name == url->scheme; });
   if (scheme == schemes.end()) {
     const std::string given = url->scheme.empty() ? std::string("no scheme") : "scheme \"" + url->scheme + "\"";
     return tl::make_unexpected(given + ": allowed are " + listed(&Scheme::usage));
@@ -53,7 +54,8 @@ tl::expected<Parsed, std::string> parsed(std::string_view text) {
 
 tl::expected<std::uint32_t, std::string> format_from(std::string words) {
   // Spaces are not at home in URLs.
-  std::replace_if(words.begin(), words.end(), [](char c) { return c == ',' || c == '+'; }, ' ');
+  std::replace_if(
+      words.begin(), words.end(), [](char c) { return c == ',' || c == '+'; }, ' ');
   const auto format = wire::format_from_words(words);
   if (!format) return tl::make_unexpected(format.error());
   if (const auto writable = wire::check_writable(*format); !writable) return tl::make_unexpected(writable.error());
@@ -63,7 +65,8 @@ tl::expected<std::uint32_t, std::string> format_from(std::string words) {
 /// Takes the options of every sink out of the URL.
 tl::expected<SinkForm, std::string> take_form(Url& url) {
   const auto take = [&url](std::string_view key) -> std::optional<std::string> {
-    const auto option = std::find_if(url.options.begin(), url.options.end(), [&](const auto& o) { return o.key == key; });
+    const auto option =
+        std::find_if(url.options.begin(), url.options.end(), [&](const auto& o) { return o.key == key; });
     if (option == url.options.end()) return std::nullopt;
     std::string value = std::move(option->value);
     url.options.erase(option);
@@ -72,7 +75,8 @@ tl::expected<SinkForm, std::string> take_form(Url& url) {
   const auto words = take("format"), preset_name = take("preset"), id = take("id");
   SinkForm form;
   if (words && preset_name) {
-    return tl::make_unexpected("option preset = \"" + *preset_name + "\": must not be given with format, which it stands for");
+    return tl::make_unexpected("option preset = \"" + *preset_name +
+                               "\": must not be given with format, which it stands for");
   }
   if (words) {
     const auto format = format_from(*words);
@@ -89,10 +93,12 @@ tl::expected<SinkForm, std::string> take_form(Url& url) {
     constexpr std::uint32_t largest = std::numeric_limits<std::uint32_t>::max();
     form.id = transport::whole_number<std::uint32_t>(*id, 0, largest);
     if (!form.id) {
-      return tl::make_unexpected("option id = \"" + *id + "\": allowed are whole numbers from 0 to " + std::to_string(largest));
+      return tl::make_unexpected("option id = \"" + *id + "\": allowed are whole numbers from 0 to " +
+                                 std::to_string(largest));
     }
     if (!form.sends_id && *form.id != 0) {
-      return tl::make_unexpected("option id = \"" + *id + "\": the preset " + *preset_name + " sends no id; only 0 is allowed");
+      return tl::make_unexpected("option id = \"" + *id + "\": the preset " + *preset_name +
+                                 " sends no id; only 0 is allowed");
     }
   }
   return form;

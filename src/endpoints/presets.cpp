@@ -5,9 +5,9 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "base/nearest.h"
 #include "built_in.h"
 #include "trk_bridge/wire/format.h"
-#include "base/nearest.h"
 
 namespace trk_bridge::endpoints {
 namespace {

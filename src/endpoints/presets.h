@@ -10,7 +10,7 @@
 
 namespace trk_bridge::endpoints {
 
-/// How records have to be told for one receiver.
+/// How records are expressed for one receiver.
 struct Preset {
   std::string name;          ///< lower-case letters, digits and underscores
   std::uint32_t format = 0;  ///< wire::FormatBit mask that passes wire::check_writable

@@ -46,7 +46,7 @@ int create_locked(const std::string& part, bool overwrite) {
     if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
       const int error = errno;
       ::close(fd);
-      fail(part, error == EWOULDBLOCK ? "another writer is at work on it" : std::system_category().message(error));
+      fail(part, error == EWOULDBLOCK ? "another writer is writing it" : std::system_category().message(error));
     }
     const bool mine = is_named(fd, part);
     const std::string refused = mine ? empty(fd, overwrite) : std::string();

@@ -13,9 +13,9 @@ namespace trk_bridge::file {
 /// One thread at a time; nothing but the constructor allocates.
 class PartFile {
  public:
-  /// Creates an empty `path`.part, locked against other writers for as long as it is open. Throws transport::TransportError:
-  /// without `overwrite`, when a file of the final name exists, or a `.part` that holds what a dead writer left;
-  /// always, when another writer is at work on it; else the system's reason.
+  /// Creates an empty `path`.part, locked against other writers for as long as it is open. Throws
+  /// transport::TransportError: without `overwrite`, when a file of the final name exists, or a `.part` that holds what
+  /// a dead writer left; always, when another writer is writing it; else the system's reason.
   PartFile(std::string path, bool overwrite);
   /// Closes it; what was not published stays as the `.part`.
   ~PartFile();

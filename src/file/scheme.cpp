@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/time_text.h"
+#include "take.h"
 
 namespace trk_bridge::file {
 namespace {
@@ -14,6 +15,7 @@ using transport::assign_switch;
 using transport::Direction;
 using transport::Option;
 using transport::real_number;
+using transport::Written;
 
 constexpr std::array<Option<SourceSettings>, 5> source_options{{
     {"rate", "fields a second from 0.001 to 100000",
@@ -70,6 +72,20 @@ tl::expected<Settings, std::string> settings_of(const transport::Url& url, Direc
   return settings;
 }
 
+class FileSink final : public transport::Sink {
+ public:
+  explicit FileSink(const SinkSettings& settings) : writer_(settings.path, settings.time_code, settings.overwrite) {}
+
+  std::string name() const override { return "file " + writer_.path(); }
+
+ private:
+  Written put(const wire::CameraParams& params) override { return writer_.write(params); }
+  Written put(const wire::CameraConstants& constants) override { return writer_.write(constants); }
+  Written finish() override { return writer_.close(); }
+
+  TakeWriter writer_;
+};
+
 }  // namespace
 
 tl::expected<SourceSettings, std::string> source_settings(const transport::Url& url) {
@@ -80,24 +96,29 @@ tl::expected<SinkSettings, std::string> sink_settings(const transport::Url& url)
   return settings_of<SinkSettings>(url, Direction::write, sink_options, source_options);
 }
 
-const transport::Scheme scheme{
-    "file", "file:PATH",
-    [](const transport::Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
-      auto settings = source_settings(url);
-      if (!settings) return tl::make_unexpected(settings.error());
-      transport::SourceEndpoint endpoint;
-      endpoint.place = "file:" + settings->path;
-      endpoint.can_wait = settings->speed == 0;
-      endpoint.open = [settings = *settings](double field_rate) { return open_source(settings, field_rate); };
-      return endpoint;
-    },
-    [](const transport::Url& url) -> tl::expected<transport::SinkEndpoint, std::string> {
-      auto settings = sink_settings(url);
-      if (!settings) return tl::make_unexpected(settings.error());
-      transport::SinkEndpoint endpoint;
-      endpoint.blocking = transport::Blocking::storage;
-      endpoint.open = [settings = *settings] { return open_sink(settings); };
-      return endpoint;
-    }};
+std::unique_ptr<transport::Sink> open_sink(const SinkSettings& settings) {
+  return std::make_unique<FileSink>(settings);
+}
+
+const transport::Scheme scheme{"file", "file:PATH",
+                               [](const transport::Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
+                                 auto settings = source_settings(url);
+                                 if (!settings) return tl::make_unexpected(settings.error());
+                                 transport::SourceEndpoint endpoint;
+                                 endpoint.place = "file:" + settings->path;
+                                 endpoint.can_wait = settings->speed == 0;
+                                 endpoint.open = [settings = *settings](double field_rate) {
+                                   return open_source(settings, field_rate);
+                                 };
+                                 return endpoint;
+                               },
+                               [](const transport::Url& url) -> tl::expected<transport::SinkEndpoint, std::string> {
+                                 auto settings = sink_settings(url);
+                                 if (!settings) return tl::make_unexpected(settings.error());
+                                 transport::SinkEndpoint endpoint;
+                                 endpoint.blocking = transport::Blocking::storage;
+                                 endpoint.open = [settings = *settings] { return open_sink(settings); };
+                                 return endpoint;
+                               }};
 
 }  // namespace trk_bridge::file

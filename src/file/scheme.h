@@ -22,11 +22,11 @@ enum class FileTime : std::uint8_t {
 /// `file:PATH?rate=…&speed=…&loop=1&time=…&date=…`, to play a take.
 struct SourceSettings {
   std::string path;
-  std::optional<double> rate;          ///< Hz, 0.001 to 100000: video fields a second
-  double speed = 1.0;                  ///< 0.001 to 1000; 0: as fast as possible
+  std::optional<double> rate;  ///< Hz, 0.001 to 100000: video fields a second
+  double speed = 1.0;          ///< 0.001 to 1000; 0: as fast as possible
   bool loop = false;
   FileTime time = FileTime::timecode;
-  std::optional<std::int64_t> date;    ///< midnight UTC, seconds since 1970; default the day of opening
+  std::optional<std::int64_t> date;  ///< midnight UTC, seconds since 1970; default the day of opening
 };
 
 /// `file:PATH?timecode=…&overwrite=1`, to record a take.

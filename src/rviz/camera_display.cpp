@@ -71,7 +71,7 @@ void CameraDisplay::onDisable() {
 
 void CameraDisplay::reset() {
   Display::reset();
-  // Anew, for what is latched comes but once.
+  // Subscribed again: what is latched comes only once.
   if (isEnabled()) onEnable();
 }
 
@@ -142,7 +142,7 @@ std::optional<CameraDisplay::Sample> CameraDisplay::choose(const FixedFrame& fix
   if (params_.alive(now, properties_.timeout())) {
     sample.params = params_.samples().belonging_to(sample.info->header.stamp);
     if (const auto pose = camera::decode_pose(ros1::from_msg(*sample.params))) {
-      sample.told = camera::pan_tilt_roll(pose->linear());
+      sample.angles = camera::pan_tilt_roll(pose->linear());
     } else {
       sample.pose_fault = camera::describe(pose.error());
     }
@@ -187,7 +187,7 @@ std::string CameraDisplay::values_text(const Sample& sample) const {
   Values values;
   if (shown.pan_tilt_roll) {
     const Eigen::Matrix3d rotation = (sample.fixed_T_optical * ros1::camera_T_optical().inverse()).linear();
-    values.pan_tilt_roll = sample.told ? *sample.told : camera::pan_tilt_roll(rotation);
+    values.pan_tilt_roll = sample.angles ? *sample.angles : camera::pan_tilt_roll(rotation);
   }
   if (shown.focal_length) {
     values.focal_length = lens_.focal_length();

@@ -32,7 +32,7 @@ class CameraDisplay : public rviz::Display {
 
   /// Once a rendered frame.
   void update(float wall_dt, float ros_dt) override;
-  /// Time went back, or the user wants to begin anew.
+  /// Time went back, or the user wants to start again.
   void reset() override;
   /// Of either type; the other topic is taken from the same namespace where it is advertised there.
   void setTopic(const QString& topic, const QString& datatype) override;
@@ -53,8 +53,8 @@ class CameraDisplay : public rviz::Display {
     boost::shared_ptr<const sensor_msgs::CameraInfo> info;
     boost::shared_ptr<const trk_bridge::CameraParams> params;  ///< null where there are none
     Eigen::Isometry3d fixed_T_optical = Eigen::Isometry3d::Identity();
-    std::optional<camera::PanTiltRoll> told;  ///< by `params`
-    std::string pose_fault;                   ///< why they tell none
+    std::optional<camera::PanTiltRoll> angles;  ///< of `params`
+    std::string pose_fault;                   ///< why they have none
   };
 
   void forget();

@@ -52,7 +52,7 @@ void CameraStatus::camera_params(const TopicState& state, const std::string& pos
     if (pose_fault.empty()) {
       set(StatusLevel::ok, "Camera Params", std::to_string(state.received) + " messages received");
     } else {
-      set(StatusLevel::warn, "Camera Params", "their pose is none, tf's is told: " + pose_fault);
+      set(StatusLevel::warn, "Camera Params", "they have no valid pose, tf's is shown: " + pose_fault);
     }
   }
 }

@@ -1,4 +1,4 @@
-// The lines that tell how a camera's display is doing.
+// The status lines of a camera's display.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace trk_bridge::rviz_display {
 
-/// What a topic's line tells.
+/// What a topic's line shows.
 struct TopicState {
   std::string topic;  ///< empty: none is chosen
   std::string fault;  ///< why it could not be subscribed to; empty: it was

@@ -137,7 +137,7 @@ void DisplayProperties::add_texts(rviz::Property* display, const char* changed) 
       values.colour({220, 220, 220}, "Of the letters."),
       values.number("Height", 0.12f, shortest, 100, "Of a capital letter, m."),
       values.flag("Pan Tilt Roll", "Degrees: of CameraParams in the studio, without them of tf in the fixed frame."),
-      values.flag("Focal Length", "The image distance in mm where CameraParams tell it, else fx in pixels."),
+      values.flag("Focal Length", "The image distance in mm where CameraParams have it, else fx in pixels."),
       values.flag("Field of View", "Degrees, horizontal x vertical, through the middles of the image's edges."),
       values.flag("Counter", "Of CameraParams.")};
 }

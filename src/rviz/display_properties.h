@@ -10,7 +10,7 @@
 #include <rviz/properties/ros_topic_property.h>
 #include <rviz/properties/string_property.h>
 
-#include "figure_style.h"
+#include "camera_figure.h"
 
 namespace trk_bridge::rviz_display {
 

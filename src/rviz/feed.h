@@ -8,7 +8,6 @@
 #include <ros/node_handle.h>
 
 #include "camera_status.h"
-#include "inbox.h"
 #include "samples.h"
 
 namespace trk_bridge::rviz_display {
@@ -19,7 +18,7 @@ class Feed {
  public:
   ~Feed() { unsubscribe(); }
 
-  /// Whatever was received before is forgotten; no topic is none. state() tells of a name that no topic can have.
+  /// Whatever was received before is forgotten; no topic is none. state() reports a name that no topic can have.
   void subscribe(ros::NodeHandle& node, const std::string& topic) {
     unsubscribe();
     topic_ = topic;

@@ -1,4 +1,4 @@
-// A CameraInfo's lens as it is drawn, worked out anew only when it changes.
+// A CameraInfo's lens as it is drawn, computed again only when it changes.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// A display's status, told no oftener than a person can read it.
+// A display's status, updated no more often than a person can read it.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ class StatusLines {
 
   StatusLines(Show show, Remove remove) : show_(std::move(show)), remove_(std::move(remove)) {}
 
-  /// To be called over and over while the condition lasts. `now` is steady, in seconds.
+  /// To be called repeatedly while the condition lasts. `now` is steady, in seconds.
   void set(StatusLevel level, const std::string& name, const std::string& text, double now);
   void remove(const std::string& name);
   /// Somebody else has removed all of them.

@@ -15,7 +15,7 @@ namespace trk_bridge::rviz_display {
 struct Values {
   std::optional<camera::PanTiltRoll> pan_tilt_roll;  ///< degrees
   std::optional<double> image_distance;              ///< mm
-  std::optional<double> focal_length;                ///< pixels; told where image_distance is not known
+  std::optional<double> focal_length;                ///< pixels; shown where image_distance is not known
   struct Angles {
     double horizontal = 0, vertical = 0;
   };

@@ -22,12 +22,12 @@ class Trail {
   static constexpr std::size_t most = 4000;
 
   /// Points older than `length` seconds before `time` are forgotten. A time that is not after the last one's, or a
-  /// position that is not finite, adds nothing; `frame` is the one whose origin the trail follows: another one starts
-  /// anew.
+  /// position that is not finite, adds nothing; `frame` is the one whose origin the trail follows: another one starts a
+  /// new trail.
   void add(const ros::Time& time, const std::string& frame, const Eigen::Vector3d& position, double length);
 
-  /// Every point is asked for anew: `position(frame, time)` gives it in another fixed frame, or nothing where it is not
-  /// known any more.
+  /// Every point is asked for again: `position(frame, time)` gives it in another fixed frame, or nothing where it is
+  /// not known any more.
   template <typename Position>
   void move(Position position) {
     std::vector<Point> moved;

@@ -13,7 +13,9 @@ constexpr std::array<Option<Settings>, 3> sink_options{{
     {"layout", transport::layout_allowed,
      [](const std::string& v, Settings& s) { return transport::assign_layout(v, s.layout); }},
     {"mode", "octal permissions from 0 to 0777",
-     [](const std::string& v, Settings& s) { return transport::assign(transport::whole_number(v, 0, 0777, 8), s.mode); }},
+     [](const std::string& v, Settings& s) {
+       return transport::assign(transport::whole_number(v, 0, 0777, 8), s.mode);
+     }},
     {"recreate", transport::switch_allowed,
      [](const std::string& v, Settings& s) { return transport::assign_switch(v, s.recreate); }},
 }};
@@ -40,23 +42,22 @@ tl::expected<Settings, std::string> sink_settings(const transport::Url& url) {
   return settings_of(url, Direction::write, sink_options, source_options);
 }
 
-const transport::Scheme scheme{
-    "shm", "shm:SLOT",
-    [](const transport::Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
-      const auto settings = source_settings(url);
-      if (!settings) return tl::make_unexpected(settings.error());
-      transport::SourceEndpoint endpoint;
-      endpoint.place = "shm:" + std::to_string(settings->slot);
-      endpoint.open = [settings = *settings](double) { return open_source(settings); };
-      return endpoint;
-    },
-    [](const transport::Url& url) -> tl::expected<transport::SinkEndpoint, std::string> {
-      const auto settings = sink_settings(url);
-      if (!settings) return tl::make_unexpected(settings.error());
-      transport::SinkEndpoint endpoint;
-      endpoint.blocking = transport::Blocking::attaching;
-      endpoint.open = [settings = *settings] { return open_sink(settings); };
-      return endpoint;
-    }};
+const transport::Scheme scheme{"shm", "shm:SLOT",
+                               [](const transport::Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
+                                 const auto settings = source_settings(url);
+                                 if (!settings) return tl::make_unexpected(settings.error());
+                                 transport::SourceEndpoint endpoint;
+                                 endpoint.place = "shm:" + std::to_string(settings->slot);
+                                 endpoint.open = [settings = *settings](double) { return open_source(settings); };
+                                 return endpoint;
+                               },
+                               [](const transport::Url& url) -> tl::expected<transport::SinkEndpoint, std::string> {
+                                 const auto settings = sink_settings(url);
+                                 if (!settings) return tl::make_unexpected(settings.error());
+                                 transport::SinkEndpoint endpoint;
+                                 endpoint.blocking = transport::Blocking::attaching;
+                                 endpoint.open = [settings = *settings] { return open_sink(settings); };
+                                 return endpoint;
+                               }};
 
 }  // namespace trk_bridge::shm

@@ -29,10 +29,9 @@ class Relay final : public cli::Listener {
 
   cli::ExitCode finish(const transport::SourceStatistics& source, cli::Ending ending, std::ostream& err) {
     sinks_.close();
-    tally_.summarise(source, err);
+    const cli::ExitCode ended = cli::report_end(tally_, source, ending, err);
     sinks_.summarise();
-    if (ending == cli::Ending::failed) err << "trk: error: " << source.error << '\n';
-    return sinks_.is_good() && ending != cli::Ending::failed ? cli::exit_good : cli::exit_failed;
+    return sinks_.is_good() ? ended : cli::exit_failed;
   }
 
  private:

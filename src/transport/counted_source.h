@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "waiting.h"
 #include "trk_bridge/base/snapshot.h"
 #include "trk_bridge/transport/source.h"
+#include "waiting.h"
 
 namespace trk_bridge::transport {
 

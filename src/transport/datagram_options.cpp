@@ -1,4 +1,4 @@
-#include "datagram_options.h"
+#include "datagram.h"
 
 #include <algorithm>
 #include <utility>
@@ -65,8 +65,7 @@ tl::expected<Place, std::string> place_in(const Url& url, Direction direction) {
   const auto host = percent_decoded(parts->host);
   if (!host) return tl::make_unexpected("host = " + host.error());
   if (host->empty() && direction == Direction::write) {
-    return tl::make_unexpected("no host: writing needs the one to send to, as in " + url.scheme +
-                               "://192.0.2.7:7000");
+    return tl::make_unexpected("no host: writing needs the one to send to, as in " + url.scheme + "://192.0.2.7:7000");
   }
   if (!parts->has_port) {
     return tl::make_unexpected("no port: there is no standard one, so it must be given (" + url.scheme +

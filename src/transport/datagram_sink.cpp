@@ -1,4 +1,4 @@
-#include "datagram_sink.h"
+#include "datagram.h"
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -9,12 +9,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "descriptor.h"
-#include "multicast.h"
-#include "socket_address.h"
-#include "socket_option.h"
+#include "scheme.h"
+#include "socket.h"
 #include "trk_bridge/transport/source.h"
-#include "url.h"
 
 namespace trk_bridge::transport {
 namespace {
@@ -81,7 +78,7 @@ class DatagramSink final : public Sink {
   /// The constants of one camera.
   struct Remembered {
     wire::CameraConstants constants;
-    steady_clock::time_point last_sent{};
+    std::optional<steady_clock::time_point> last_sent;  // none: these have not gone out yet
   };
 
   Written put(const wire::CameraParams& params) override;
@@ -129,7 +126,8 @@ Written DatagramSink::put(const wire::CameraParams& params) {
   if (const auto found = remembered_.find(params.id); found != remembered_.end()) {
     Remembered& remembered = found->second;
     const auto now = steady_clock::now();
-    if (period_ > steady_clock::duration::zero() && now - remembered.last_sent >= period_) {
+    const bool is_due = !remembered.last_sent || now - *remembered.last_sent >= period_;
+    if (period_ > steady_clock::duration::zero() && is_due) {
       constants_sent = send(remembered.constants);
       if (constants_sent) {
         remembered.last_sent = now;
@@ -147,6 +145,7 @@ Written DatagramSink::put(const wire::CameraConstants& constants) {
   if (!sent && sent.error().reason == SinkReason::not_encodable) return sent;
   Remembered& remembered = remembered_[constants.id];
   remembered.constants = constants;
+  remembered.last_sent.reset();
   if (sent) remembered.last_sent = steady_clock::now();
   return sent;
 }

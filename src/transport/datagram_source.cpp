@@ -1,11 +1,11 @@
-#include "datagram_source.h"
+#include "datagram.h"
 
 #include <cerrno>
 #include <string>
 #include <utility>
 
 #include "counted_source.h"
-#include "url.h"
+#include "scheme.h"
 
 namespace trk_bridge::transport {
 namespace {

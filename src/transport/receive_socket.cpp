@@ -9,8 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "multicast.h"
-#include "socket_option.h"
+#include "socket.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::transport {

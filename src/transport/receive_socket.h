@@ -12,8 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "descriptor.h"
-#include "socket_address.h"
+#include "socket.h"
 #include "trk_bridge/wire/codec.h"
 
 namespace trk_bridge::transport {

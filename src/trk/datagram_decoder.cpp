@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "transport/origin.h"
+#include "trk_bridge/transport/sample.h"
 
 namespace trk_bridge::trk {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "transport/decoder.h"
+#include "transport/datagram.h"
 #include "trk_bridge/wire/codec.h"
 
 namespace trk_bridge::trk {

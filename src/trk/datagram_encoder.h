@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "transport/encoder.h"
+#include "transport/datagram.h"
 #include "trk_bridge/wire/codec.h"
 
 namespace trk_bridge::trk {

@@ -4,8 +4,7 @@
 
 #include "datagram_decoder.h"
 #include "datagram_encoder.h"
-#include "transport/datagram_options.h"
-#include "transport/datagram_source.h"
+#include "transport/datagram.h"
 
 namespace trk_bridge::trk {
 namespace {
@@ -33,9 +32,9 @@ constexpr std::array<Option<UdpSinkSettings>, 2> sink_options{{
 tl::expected<UdpSourceSettings, std::string> udp_source_settings(const transport::Url& url) {
   UdpSourceSettings settings;
   if (const auto place = transport::set_place(url, settings); !place) return tl::make_unexpected(place.error());
-  const auto set = transport::set_options(url, Direction::read, settings,
-                                          transport::keys_of(transport::send_options, sink_options),
-                                          transport::receive_options, source_options);
+  const auto set =
+      transport::set_options(url, Direction::read, settings, transport::keys_of(transport::send_options, sink_options),
+                             transport::receive_options, source_options);
   if (!set) return tl::make_unexpected(set.error());
   return settings;
 }

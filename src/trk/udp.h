@@ -6,7 +6,7 @@
 
 #include <tl/expected.hpp>
 
-#include "transport/datagram_sink.h"
+#include "transport/datagram.h"
 #include "transport/receive_socket.h"
 #include "transport/scheme.h"
 #include "trk_bridge/wire/layout.h"

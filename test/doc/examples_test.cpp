@@ -3,6 +3,7 @@
 
 #include "free_slot.h"
 #include "program.h"
+#include "reserved_port.h"
 #include "temporary_directory.h"
 #include "udp.h"
 
@@ -19,10 +20,10 @@ TEST(Examples, read_udp_prints_what_trk_sends) {
   EXPECT_EQ(maker.rest_of_err(), "");
   ASSERT_EQ(maker.wait(), 0);
 
-  const std::string port = std::to_string(PlainSocket().port());
+  const ReservedPort port;
   // Constants come again within a second of 50 sets, should the first ones have come too early.
-  Program reader({READ_UDP, port, "60"});
-  Program sender({TRK_TOOL, "relay", "file:" + take + "?loop=1&time=now", "udp://127.0.0.1:" + port});
+  Program reader({READ_UDP, port.text(), "60"});
+  Program sender({TRK_TOOL, "relay", "file:" + take + "?loop=1&time=now", port.url()});
   const std::string out = reader.rest_of_out();
   EXPECT_THAT(out, HasSubstr("constants: image 720 x 576 pixels, chip 6.4 x 4.8 mm\n"));
   EXPECT_THAT(out, HasSubstr(" degrees [euler studio_z_up image_distance consider_blank shift_on_chip]\n"));

@@ -6,7 +6,6 @@ import dataclasses
 import fcntl
 import os
 import pathlib
-import random
 import re
 import shlex
 import socket
@@ -21,15 +20,22 @@ class StandIn:
     why: str
 
 
+_reserved_ports = []  # locks, held until this process ends
+
+
 def free_port():
-    """A port below those that the kernel gives away by itself, free for UDP and TCP."""
-    while True:
-        port = random.randrange(20000, 30000)
-        with contextlib.suppress(OSError), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp, \
-                socket.socket() as tcp:
-            udp.bind(("", port))
-            tcp.bind(("127.0.0.1", port))
+    """A port below those that the kernel gives away by itself, free for UDP and TCP, and given to no other test while this
+    process runs (test/support/reserved_port.h)."""
+    for port in range(20000, 30000):
+        with contextlib.ExitStack() as lock, contextlib.suppress(OSError):
+            file = lock.enter_context(open(f"/tmp/trk_bridge_test_port.{port}", "a"))
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp, socket.socket() as tcp:
+                udp.bind(("", port))
+                tcp.bind(("127.0.0.1", port))
+            _reserved_ports.append(lock.pop_all())
             return port
+    raise RuntimeError("no port of 20000 to 29999 is free")
 
 
 class FreeSlot:

@@ -11,21 +11,16 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-class Conditions : public NodeTest {
+class Conditions : public TrkToRosTest {
  protected:
   void open(const std::string& options = "") {
-    const auto port = free_udp_port();
-    set("source", udp_url(port) + options);
+    set("source", any_udp_port + options);
     params.emplace(name_space + "/params");
     constants.emplace(name_space + "/constants");
     infos.emplace(name_space + "/camera_info");
     transforms.emplace("/tf", camera);
     ASSERT_TRUE(starts());
-    ASSERT_TRUE(eventually([this] {
-      return params->connected_to(node_name) && constants->connected_to(node_name) && infos->connected_to(node_name) &&
-             transforms->connected_to(node_name);
-    }));
-    tracker.emplace(port);
+    tracker.emplace(port());
   }
 
   bool counters_are(const std::vector<std::uint64_t>& expected) {

@@ -1,7 +1,7 @@
 // The crane's way out and back, as launch/crane.launch makes it: joints, tf, trk over UDP, tf.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,6 +15,8 @@
 #include <trk_bridge/CameraParams.h>
 
 #include "fixture.h"
+#include "reserved_port.h"
+#include "roslaunch.h"
 #include "trk_bridge/ros/frames.h"
 
 namespace trk_bridge::test {
@@ -25,38 +27,6 @@ constexpr double degrees = 1e-3;       // so may these
 constexpr double pixels = 1e-3;        // and these of every element of K
 const ::ros::Duration long_enough(5);  // of moving samples
 constexpr std::size_t enough = 120;    // samples
-constexpr std::chrono::seconds patience{60};
-
-/// roslaunch and all its nodes, ended with the test.
-class Launched {
- public:
-  explicit Launched(std::vector<std::string> words) : roslaunch_(std::move(words)) {}
-  ~Launched() { (void)end(); }
-  Launched(const Launched&) = delete;
-  Launched& operator=(const Launched&) = delete;
-
-  /// What it said, once it has ended.
-  std::string end() {
-    if (ended_) return said_;
-    ended_ = true;
-    roslaunch_.signal(SIGINT);
-    said_ = roslaunch_.rest_of_out() + roslaunch_.rest_of_err();
-    EXPECT_EQ(roslaunch_.wait(), 0) << said_;
-    return said_;
-  }
-
- private:
-  Program roslaunch_;
-  std::string said_;
-  bool ended_ = false;
-};
-
-std::vector<std::string> crane_launch(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{"/usr/bin/env", "roslaunch",   "trk_bridge",
-                                 "crane.launch", "rviz:=false", "endpoint:=" + udp_url(free_udp_port())};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  return words;
-}
 
 double degrees_between(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) {
   return Eigen::Quaterniond(one.linear()).angularDistance(Eigen::Quaterniond(other.linear())) * 180 / M_PI;
@@ -76,7 +46,14 @@ class CraneThereAndBack : public ::testing::TestWithParam<const char*> {
         crane_info_("/crane/camera_info"),
         returned_info_("/returned/camera_info"),
         listener_(transforms_),
-        launched_(crane_launch({std::string("preset:=") + GetParam()})) {}
+        launched_("crane.launch", {"rviz:=false", "endpoint:=" + port_.url(), std::string("preset:=") + GetParam()}) {}
+
+  /// Everything that is compared has come once: the nodes have found each other.
+  bool all_come() const {
+    return !sent_.messages.empty() && !returned_.messages.empty() && !crane_info_.messages.empty() &&
+           !returned_info_.messages.empty() && transforms_.canTransform("studio", "camera_optical", ::ros::Time()) &&
+           transforms_.canTransform("studio", "returned_optical", ::ros::Time());
+  }
 
   /// Both cameras have moved long enough, and were told often enough meanwhile.
   bool moved() const {
@@ -86,7 +63,14 @@ class CraneThereAndBack : public ::testing::TestWithParam<const char*> {
     return spans(sent_.messages) && spans(returned_.messages);
   }
 
-  /// Times of the crane by counter. The first second is left out: nodes find each other then.
+  void forget() {
+    sent_.messages.clear();
+    returned_.messages.clear();
+    crane_info_.messages.clear();
+    returned_info_.messages.clear();
+  }
+
+  /// Times of the crane by counter. The first second is left out: topics that are on time may be that far apart.
   std::map<std::uint64_t, ::ros::Time> crane_times() const {
     std::map<std::uint64_t, ::ros::Time> times;
     for (const auto& message : sent_.messages) {
@@ -119,57 +103,74 @@ class CraneThereAndBack : public ::testing::TestWithParam<const char*> {
     return std::nullopt;
   }
 
+  struct Compared {
+    std::size_t sets = 0, with_their_lens = 0;
+    std::size_t late_lenses = 0;  ///< of a CameraInfo that is older than 0.1 s, or of one that is not known
+    Eigen::AlignedBox3d covered;
+
+    /// On a busy machine a CameraInfo may be late, and the one before goes with the pose, but not for ever.
+    bool lenses_are_on_time() const { return late_lenses == 0 && with_their_lens >= sets * 9 / 10; }
+  };
+
+  void compare(Compared& compared) {
+    const auto times = crane_times();
+    for (const auto& message : std::vector(returned_.messages)) {
+      const auto found = times.find(message.counter);
+      if (found == times.end()) continue;
+      SCOPED_TRACE("counter " + std::to_string(message.counter));
+      for (const std::string axes : {"", "_optical"}) {
+        const auto crane = pose("camera" + axes, found->second);
+        const auto returned = pose("returned" + axes, message.header.stamp);
+        ASSERT_TRUE(crane && returned);
+        ASSERT_LE((crane->translation() - returned->translation()).norm(), metres);
+        ASSERT_LE(degrees_between(*crane, *returned), degrees);
+        compared.covered.extend(crane->translation());
+      }
+      const auto lag = lag_of_lens(found->second, message.header.stamp);
+      if (!lag || lag->toSec() >= 0.1) ++compared.late_lenses;
+      if (lag && lag->isZero()) ++compared.with_their_lens;
+      ++compared.sets;
+    }
+  }
+
   Recorder<trk_bridge::CameraParams> sent_, returned_;
   Recorder<sensor_msgs::CameraInfo> crane_info_, returned_info_;
   tf2_ros::Buffer transforms_{::ros::Duration(60)};
   tf2_ros::TransformListener listener_;
-  Launched launched_;
+  const ReservedPort port_;
+  Roslaunch launched_;
 };
 
 TEST_P(CraneThereAndBack, BothCamerasCoincide) {
-  ASSERT_TRUE(eventually([this] { return moved(); }, patience)) << launched_.end();
-  const auto times = crane_times();
-  std::size_t compared = 0, with_their_lens = 0;
-  Eigen::AlignedBox3d covered;
-  for (const auto& message : std::vector(returned_.messages)) {
-    const auto found = times.find(message.counter);
-    if (found == times.end()) continue;
-    SCOPED_TRACE("counter " + std::to_string(message.counter));
-    for (const std::string axes : {"", "_optical"}) {
-      const auto crane = pose("camera" + axes, found->second), returned = pose("returned" + axes, message.header.stamp);
-      ASSERT_TRUE(crane && returned);
-      ASSERT_LE((crane->translation() - returned->translation()).norm(), metres);
-      ASSERT_LE(degrees_between(*crane, *returned), degrees);
-      covered.extend(crane->translation());
-    }
-    const auto lag = lag_of_lens(found->second, message.header.stamp);
-    ASSERT_TRUE(lag) << "no CameraInfo of the crane has this K";
-    EXPECT_LT(lag->toSec(), 0.1);
-    if (lag->isZero()) ++with_their_lens;
-    ++compared;
-  }
-  EXPECT_GE(compared, enough);
-  // Where a CameraInfo is late on a busy machine, the one before goes with the pose.
-  EXPECT_GE(with_their_lens, compared * 9 / 10);
-  EXPECT_GT(covered.diagonal().norm(), 0.5) << "m that the camera moved meanwhile";
+  ASSERT_TRUE(eventually([this] { return all_come(); })) << launched_.end();
+  const auto end = std::chrono::steady_clock::now() + deadline;
+  Compared compared;
+  do {
+    forget();
+    ASSERT_TRUE(eventually([this] { return moved(); })) << launched_.end();
+    compared = Compared();
+    ASSERT_NO_FATAL_FAILURE(compare(compared));
+    EXPECT_GE(compared.sets, enough);
+    EXPECT_GT(compared.covered.diagonal().norm(), 0.5) << "m that the camera moved meanwhile";
+  } while (!compared.lenses_are_on_time() && std::chrono::steady_clock::now() < end);
+  EXPECT_EQ(compared.late_lenses, 0u);
+  EXPECT_GE(compared.with_their_lens, compared.sets * 9 / 10);
 }
 
 TEST(Crane, TakesJointStatesFromElsewhere) {
   const auto publisher = ::ros::NodeHandle().advertise<sensor_msgs::JointState>("/joint_states", 100);
   Recorder<sensor_msgs::JointState> joint_states("/joint_states");
   Recorder<trk_bridge::CameraParams> returned("/returned/params");
-  Launched launched(crane_launch({"joints:=external"}));
+  const ReservedPort port;
+  Roslaunch launched("crane.launch", {"rviz:=false", "endpoint:=" + port.url(), "joints:=external"});
   sensor_msgs::JointState all_zero;
   all_zero.name = {"column_pan", "arm_elevation", "arm_extension", "head_pan", "head_tilt", "head_roll"};
   all_zero.position.assign(all_zero.name.size(), 0.0);
-  ASSERT_TRUE(eventually(
-      [&] {
-        all_zero.header.stamp = ::ros::Time::now();
-        publisher.publish(all_zero);
-        return returned.messages.size() > 20;
-      },
-      patience))
-      << launched.end();
+  ASSERT_TRUE(eventually([&] {
+    all_zero.header.stamp = ::ros::Time::now();
+    publisher.publish(all_zero);
+    return returned.messages.size() > 20;
+  })) << launched.end();
   // The arm level and drawn in, the camera looking along it, hung below its end.
   const auto& camera = returned.messages.back();
   EXPECT_NEAR(camera.x, -2, 1e-9);

@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <stdexcept>
 #include <utility>
 
 #include <ros/callback_queue.h>
 #include <ros/master.h>
-#include <ros/network.h>
-#include <ros/this_node.h>
-#include <xmlrpcpp/XmlRpcClient.h>
 
 namespace trk_bridge::test {
+namespace {
+
+std::string next_name() {
+  static std::atomic<int> made{0};
+  return "camera" + std::to_string(++made);
+}
+
+}  // namespace
 
 bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds within) {
   using Clock = std::chrono::steady_clock;
@@ -22,27 +26,6 @@ bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds
     ::ros::getGlobalCallbackQueue()->callAvailable(::ros::WallDuration(0.005));
   }
   return true;
-}
-
-bool is_served(const ::ros::Subscriber& subscriber, const std::string& publisher) {
-  XmlRpc::XmlRpcValue request, response, uri;
-  request[0] = ::ros::this_node::getName();
-  request[1] = publisher;
-  std::string host;
-  std::uint32_t port = 0;
-  if (!::ros::master::execute("lookupNode", request, response, uri, /*wait_for_master=*/false)) return false;
-  if (!::ros::network::splitURI(uri, host, port)) return false;
-  XmlRpc::XmlRpcClient node(host.c_str(), static_cast<int>(port));
-  XmlRpc::XmlRpcValue name, answer;
-  name[0] = ::ros::this_node::getName();
-  if (!node.execute("getBusInfo", name, answer) || node.isFault()) return false;
-  XmlRpc::XmlRpcValue& connections = answer[2];
-  for (int i = 0; i < connections.size(); ++i) {
-    XmlRpc::XmlRpcValue& connection = connections[i];
-    const std::string to = connection[1], direction = connection[2], topic = connection[4];
-    if (to == ::ros::this_node::getName() && direction == "o" && topic == subscriber.getTopic()) return true;
-  }
-  return false;
 }
 
 bool is_advertised(const std::string& topic) {
@@ -61,12 +44,9 @@ TransformRecorder::TransformRecorder(const std::string& topic, std::string child
       });
 }
 
-DiagnosticsRecorder::DiagnosticsRecorder() { subscribe(); }
-
-void DiagnosticsRecorder::subscribe() {
-  subscriber_.shutdown();
+DiagnosticsRecorder::DiagnosticsRecorder(const std::string& topic) {
   subscriber_ = ::ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>(
-      "/diagnostics", 1000, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
+      topic, 1000, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
         for (const auto& status : message->status) newest_[status.name] = status;
       });
 }
@@ -105,51 +85,28 @@ std::string DiagnosticsRecorder::value(const std::string& name, const std::strin
                                        << ", not " << level << " " << text;
 }
 
-std::string udp_url(std::uint16_t port) { return "udp://127.0.0.1:" + std::to_string(port); }
-
-NodeTest::NodeTest(const std::string& of_program) : program_path(of_program) {
-  static std::atomic<int> made{0};
-  camera = "camera" + std::to_string(++made);
-  name_space = "/" + camera;
-  node_name = name_space + program_path.substr(program_path.find_last_of('/'));
+CameraTest::CameraTest(const std::string& node)
+    : camera(next_name()),
+      name_space("/" + camera),
+      node_name(name_space + "/" + node),
+      diagnostics(name_space + "/diagnostics") {
   set("diagnostic_period", 0.1);
 }
 
-void NodeTest::start() {
-  node = std::make_unique<Program>(std::vector<std::string>{program_path, "__ns:=" + name_space});
-}
-
-::testing::AssertionResult NodeTest::starts(const std::string& told_of) {
-  start();
-  // Values come once its readers have been made; what was told before is "Node starting up".
+::testing::AssertionResult CameraTest::tells_of(const std::string& subject) {
+  const std::string name = status_name(subject);
+  // Values come once what it is made of runs; what was told before is "Node starting up".
   const auto told = [&] {
-    const auto* status = diagnostics.find(status_name(told_of));
+    const auto* status = diagnostics.find(name);
     return status != nullptr && !status->values.empty();
   };
-  // The master's news of nodes that come and go may overtake one another, and a subscriber that heard the older one
-  // last stays without the new node.
-  constexpr int attempts = 4;
-  for (int i = 0; i < attempts; ++i) {
-    if (eventually(told, deadline / 2)) return ::testing::AssertionSuccess();
-    diagnostics.subscribe();
-  }
-  node->signal(SIGKILL);
-  return ::testing::AssertionFailure() << "the node did not start: " << node->rest_of_err();
+  if (eventually(told)) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "no diagnostics of " << name;
 }
 
-std::string NodeTest::refusal() {
-  start();
-  const std::string said = node->rest_of_err();
-  EXPECT_EQ(node->wait(), 1);
-  return said;
-}
-
-std::chrono::nanoseconds NodeTest::interrupted() {
-  const auto begin = std::chrono::steady_clock::now();
-  node->signal(SIGINT);
-  (void)node->rest_of_err();
-  EXPECT_EQ(node->wait(), 0);
-  return std::chrono::steady_clock::now() - begin;
+std::uint16_t CameraTest::port(const std::string& of_camera) const {
+  const auto* status = diagnostics.find(status_name(of_camera));
+  return udp_port_in(status == nullptr ? "" : status->hardware_id);
 }
 
 }  // namespace trk_bridge::test

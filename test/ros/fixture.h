@@ -1,8 +1,9 @@
-// What tests of whole nodes need: a node as a process of its own, what it publishes, and places to send to.
+// What tests of whole nodes need: a node in the process of the test, what it publishes, and places to send to.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -14,18 +15,14 @@
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "program.h"
 #include "trk_bridge/wire/codec.h"
+#include "nodes/trk_to_ros.h"
 #include "udp.h"
 
 namespace trk_bridge::test {
 
 /// Handles ROS callbacks until `condition` is met or the deadline has passed; whether it was met.
 bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds within = deadline);
-
-/// Whether the node `publisher` sends what it publishes to this subscriber. Asked of the publisher: a subscriber
-/// believes so before the other end knows of it, and /tf has other publishers.
-bool is_served(const ::ros::Subscriber& subscriber, const std::string& publisher);
 
 /// Whether some node publishes on this topic.
 bool is_advertised(const std::string& topic);
@@ -38,7 +35,6 @@ class Recorder {
     subscriber_ = ::ros::NodeHandle().subscribe<Message>(
         topic, 10000, [this](const boost::shared_ptr<const Message>& message) { messages.push_back(*message); });
   }
-  bool connected_to(const std::string& publisher) const { return is_served(subscriber_, publisher); }
 
   std::vector<Message> messages;
 
@@ -50,7 +46,6 @@ class Recorder {
 class TransformRecorder {
  public:
   TransformRecorder(const std::string& topic, std::string child);
-  bool connected_to(const std::string& publisher) const { return is_served(subscriber_, publisher); }
 
   std::vector<geometry_msgs::TransformStamped> transforms;
 
@@ -58,12 +53,11 @@ class TransformRecorder {
   ::ros::Subscriber subscriber_;
 };
 
-/// The newest status of every name on /diagnostics.
+/// The newest status of every name on a topic of diagnostics.
 class DiagnosticsRecorder {
  public:
-  DiagnosticsRecorder();
-  /// Anew; what was received is kept.
-  void subscribe();
+  explicit DiagnosticsRecorder(const std::string& topic);
+  std::string topic() const { return subscriber_.getTopic(); }
   const diagnostic_msgs::DiagnosticStatus* find(const std::string& name) const;
   /// "" when there is no such status or key.
   std::string value(const std::string& name, const std::string& key) const;
@@ -93,38 +87,69 @@ class Tracker {
   std::uint16_t port_;
 };
 
-/// A port of 127.0.0.1 that nobody is bound to.
-inline std::uint16_t free_udp_port() { return PlainSocket().port(); }
-std::string udp_url(std::uint16_t port);
-
-/// One camera's node in a namespace of its own, made for one test.
-class NodeTest : public ::testing::Test {
+/// One camera in a namespace of its own, made for one test, and the parameters of its node.
+class CameraTest : public ::testing::Test {
  protected:
-  /// Of trk_to_ros, or of another program, whose name the node bears.
-  explicit NodeTest(const std::string& program = TRK_TO_ROS);
+  explicit CameraTest(const std::string& node);
 
-  /// Sets a private parameter.
+  /// Sets a private parameter of the node.
   template <typename T>
   void set(const std::string& key, const T& value) {
     ::ros::param::set(node_name + "/" + key, value);
   }
-  void start();
-  /// Starts it and waits until it has told the state of camera `told_of`.
-  ::testing::AssertionResult starts(const std::string& told_of);
-  ::testing::AssertionResult starts() { return starts(camera); }
-  /// Expects it to end with 1 at once and returns what it said.
-  std::string refusal();
-  /// Ends it as Ctrl-C does; how long that took.
-  std::chrono::nanoseconds interrupted();
-  std::string status_name(const std::string& of_camera) const { return node_name.substr(1) + ": " + of_camera; }
+  /// Waits until the node has told the state of `subject`: what it was made of runs.
+  ::testing::AssertionResult tells_of(const std::string& subject);
+  /// The UDP port that the diagnostics of `of_camera` tell.
+  std::uint16_t port(const std::string& of_camera) const;
+  std::uint16_t port() const { return port(camera); }
+  std::string status_name(const std::string& subject) const { return node_name.substr(1) + ": " + subject; }
   std::string status_name() const { return status_name(camera); }
 
-  std::string program_path;
   std::string camera;      ///< its name, unique in this run
   std::string name_space;  ///< "/" + camera
   std::string node_name;
+  /// On a topic of the camera's own, which has no other publisher before or after.
   DiagnosticsRecorder diagnostics;
-  std::unique_ptr<Program> node;
 };
+
+/// The node runs in the process of the test. What it publishes reaches subscribers of the test from the moment that
+/// both are there: neither waits for the master. Its callbacks come while the test waits, in eventually().
+template <typename Node>
+class NodeTest : public CameraTest {
+ protected:
+  /// `name` is the program's.
+  explicit NodeTest(const std::string& name) : CameraTest(name) {}
+
+  void start() {
+    const ::ros::M_string remapped{{"/diagnostics", diagnostics.topic()}};
+    node = std::make_unique<Node>(::ros::NodeHandle(name_space, remapped), ::ros::NodeHandle(node_name), node_name);
+  }
+  /// Starts it and waits until it has told the state of camera `told_of`.
+  ::testing::AssertionResult starts(const std::string& told_of) {
+    start();
+    return tells_of(told_of);
+  }
+  ::testing::AssertionResult starts() { return starts(camera); }
+  /// Expects that it cannot start and returns why.
+  std::string refusal() {
+    try {
+      start();
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "the node started";
+    return "";
+  }
+
+  std::unique_ptr<Node> node;
+};
+
+class TrkToRosTest : public NodeTest<nodes::TrkToRos> {
+ protected:
+  TrkToRosTest() : NodeTest("trk_to_ros") {}
+};
+
+/// A source on a port that the kernel picks. Diagnostics tell which.
+inline const std::string any_udp_port = "udp://127.0.0.1:0";
 
 }  // namespace trk_bridge::test

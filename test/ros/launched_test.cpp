@@ -1,11 +1,31 @@
-// The launch files, started by the test's own one with a take that plays for ever.
+// The launch files, started by the test's own one with a take that plays for ever, and its nodelet manager.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nodelet/NodeletLoad.h>
+#include <nodelet/NodeletUnload.h>
 #include <trk_bridge/CameraParams.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "fixture.h"
+#include "reserved_port.h"
+#include "roslaunch.h"
 
 namespace trk_bridge::test {
 namespace {
+
+/// The nodes run from the first test to the last.
+class LaunchedNodes : public ::testing::Environment {
+ public:
+  void SetUp() override { roslaunch_.emplace(std::vector<std::string>{LAUNCH_FILE}); }
+  void TearDown() override { roslaunch_.reset(); }
+
+ private:
+  std::optional<Roslaunch> roslaunch_;
+};
+
+const auto* const launched_nodes = ::testing::AddGlobalTestEnvironment(new LaunchedNodes);
 
 class Launched : public ::testing::TestWithParam<const char*> {};
 
@@ -30,11 +50,58 @@ TEST(LaunchedMarkers, AreDrawnWhereTheyWereAskedFor) {
   const auto& axis = markers.messages.front().markers.at(1);
   EXPECT_EQ(axis.ns, "launched_nodelet/axis");
   EXPECT_EQ(axis.points.back().z, 5);
+  // Once it publishes, all its topics are advertised.
+  Recorder<trk_bridge::CameraParams> params("/launched_node/params");
+  ASSERT_TRUE(eventually([&] { return !params.messages.empty(); }));
   EXPECT_FALSE(is_advertised("/launched_node/trk_to_ros/markers"));
 }
 
 INSTANTIATE_TEST_SUITE_P(As, Launched, ::testing::Values("launched_node", "launched_nodelet"),
                          [](const auto& test) { return std::string(test.param); });
+
+class InManager : public CameraTest {
+ protected:
+  InManager() : CameraTest("trk_to_ros") {}
+
+  bool load() {
+    nodelet::NodeletLoad request;
+    request.request.name = node_name;
+    request.request.type = "trk_bridge/TrkToRos";
+    request.request.remap_source_args = {"/diagnostics"};
+    request.request.remap_target_args = {diagnostics.topic()};
+    EXPECT_TRUE(::ros::service::waitForService("/manager/load_nodelet", ::ros::Duration(deadline.count())));
+    return ::ros::service::call("/manager/load_nodelet", request) && request.response.success;
+  }
+  bool unload() {
+    nodelet::NodeletUnload request;
+    request.request.name = node_name;
+    return ::ros::service::call("/manager/unload_nodelet", request) && request.response.success;
+  }
+};
+
+TEST_F(InManager, PublishesUntilItIsUnloadedAndCanBeLoadedAgain) {
+  // Loading it again needs the port that unloading has to free.
+  const ReservedPort reserved;
+  set("source", reserved.url());
+  const Tracker tracker(reserved.number());
+  std::uint64_t counter = 0;
+  for (int round = 1; round <= 2; ++round) {
+    TransformRecorder transforms("/tf", camera);
+    ASSERT_TRUE(load());
+    EXPECT_TRUE(eventually([&] {
+      tracker.send(test::params(++counter));
+      return !transforms.transforms.empty();
+    }));
+    EXPECT_TRUE(diagnostics.becomes(status_name(), "received", std::to_string(counter)));
+    counter = 0;
+    ASSERT_TRUE(unload()) << "which joins its reader";
+  }
+}
+
+TEST_F(InManager, LoadingFailsWhenItCannotStart) {
+  set("sorce", any_udp_port);
+  EXPECT_FALSE(load());
+}
 
 }  // namespace
 }  // namespace trk_bridge::test

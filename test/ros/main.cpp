@@ -1,9 +1,29 @@
+// Every program of tests is a node of a ROS master of its own.
+#include <cstdio>
+#include <cstdlib>
+
 #include <gmock/gmock.h>
 #include <ros/ros.h>
 
+#include "program.h"
+#include "temporary_directory.h"
+#include "test_limit.h"
+
 int main(int argc, char** argv) {
   ::testing::InitGoogleMock(&argc, argv);
-  ::ros::init(argc, argv, "trk_to_ros_rostest");
+  trk_bridge::test::limit_each_test();
+  trk_bridge::test::Program master({PYTHON, "-B", MASTER});
+  const auto uri = master.out_line();
+  if (!uri) {
+    std::fprintf(stderr, "no ROS master: %s\n", master.rest_of_err().c_str());
+    return 1;
+  }
+  const trk_bridge::test::TemporaryDirectory logs;
+  ::setenv("ROS_MASTER_URI", uri->c_str(), /*overwrite=*/1);
+  ::setenv("ROS_LOG_DIR", logs.path().c_str(), /*overwrite=*/1);
+  // Who asks for no other address gets one that every machine has.
+  if (std::getenv("ROS_HOSTNAME") == nullptr) ::setenv("ROS_IP", "127.0.0.1", /*overwrite=*/0);
+  ::ros::init(argc, argv, "test");
   const ::ros::NodeHandle keeps_ros_running;
   return RUN_ALL_TESTS();
 }

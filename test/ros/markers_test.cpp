@@ -28,20 +28,19 @@ wire::CameraParams bent(std::uint64_t counter, std::uint32_t id = 0) {
   return params;
 }
 
-class MarkersOff : public NodeTest {};
+class MarkersOff : public TrkToRosTest {};
 
 TEST_F(MarkersOff, ByDefaultThereIsNoTopic) {
-  const auto port = free_udp_port();
-  set("source", udp_url(port));
+  set("source", any_udp_port);
   ASSERT_TRUE(starts());
   EXPECT_TRUE(is_advertised(name_space + "/params"));
   EXPECT_FALSE(is_advertised(node_name + "/markers"));
 }
 
-class MarkersRefused : public NodeTest {};
+class MarkersRefused : public TrkToRosTest {};
 
 TEST_F(MarkersRefused, WrongValuesAndKeysAreNamedWithWhatIsAllowed) {
-  set("source", udp_url(free_udp_port()));
+  set("source", any_udp_port);
   set("publish_markers", "yes");
   EXPECT_THAT(refusal(), AllOf(HasSubstr("~publish_markers = 'yes'"), HasSubstr("must be true or false")));
   set("publish_markers", true);
@@ -55,11 +54,10 @@ TEST_F(MarkersRefused, WrongValuesAndKeysAreNamedWithWhatIsAllowed) {
   EXPECT_THAT(refusal(), HasSubstr("~publish_marker = 1: no such parameter, nearest is publish_markers"));
 }
 
-class Markers : public NodeTest {
+class Markers : public TrkToRosTest {
  protected:
   void SetUp() override {
-    const auto port = free_udp_port();
-    set("source", udp_url(port));
+    set("source", any_udp_port);
     set("publish_markers", true);
     set("marker_far", 6);
     const std::string left = camera + "_left", right = camera + "_right";
@@ -69,11 +67,7 @@ class Markers : public NodeTest {
     markers.emplace(node_name + "/markers");
     for (const auto& name : cameras) infos[name].emplace(name_space + "/" + name + "/camera_info");
     ASSERT_TRUE(starts(right));
-    ASSERT_TRUE(eventually([this] {
-      return markers->connected_to(node_name) && infos[cameras[0]]->connected_to(node_name) &&
-             infos[cameras[1]]->connected_to(node_name);
-    }));
-    tracker.emplace(port);
+    tracker.emplace(port(right));
     tracker->send(test::constants());
   }
 

@@ -1,11 +1,12 @@
 // A camera recorded and played back by the launch files, and what trk bag makes of the recordings.
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 
 #include "fixture.h"
+#include "program.h"
+#include "roslaunch.h"
 #include "temporary_directory.h"
-#include "file/take_file.h"
+#include "file/take.h"
 #include "vectors.h"
 
 namespace trk_bridge::test {
@@ -27,14 +28,8 @@ std::string bits(const RecordType& record) {
   return ::testing::AssertionFailure() << part.size() << " fields are no run of the " << whole.size();
 }
 
-class Recording : public NodeTest {
+class Recording : public TrkToRosTest {
  protected:
-  static std::vector<std::string> launch(const std::string& file, const std::vector<std::string>& arguments) {
-    std::vector<std::string> words{"/usr/bin/env", "roslaunch", "trk_bridge", file};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    return words;
-  }
-
   ::testing::AssertionResult trk_bag(const std::string& from, const std::string& to,
                                      const std::vector<std::string>& options = {}) {
     std::vector<std::string> words{TRK_TOOL, "bag", from, to};
@@ -49,14 +44,13 @@ class Recording : public NodeTest {
 };
 
 TEST_F(Recording, OfARunningNodeIsTheTakeThatWasSent) {
-  const auto port = free_udp_port();
-  set("source", udp_url(port));
+  set("source", any_udp_port);
   set("format", "as_received");
   ASSERT_TRUE(starts());
   const auto take = file::read_take(data_path("field/takes/euler.trk"));
   const std::string bag = directory / "recorded.bag";
-  Program recorder(launch("record.launch", {"camera:=" + camera, "bag:=" + bag}));
-  Tracker tracker(port);
+  Roslaunch recorder("record.launch", {"camera:=" + camera, "bag:=" + bag});
+  Tracker tracker(port());
   std::size_t sent = 0;
   const auto recorded = [&] {
     std::error_code none_yet;
@@ -68,10 +62,7 @@ TEST_F(Recording, OfARunningNodeIsTheTakeThatWasSent) {
     tracker.send(take.params[sent++ % take.params.size()]);
     return recorded();
   }));
-  recorder.signal(SIGINT);
-  recorder.rest_of_out();
-  recorder.rest_of_err();
-  EXPECT_EQ(recorder.wait(), 0);
+  recorder.end();
   ASSERT_TRUE(trk_bag(bag, directory / "back.trk", {"--field-rate", "50"}));
   const auto back = file::read_take(directory / "back.trk");
   EXPECT_GE(back.params.size(), 20u);
@@ -91,10 +82,8 @@ TEST_F(Recording, PlayedBackFeedsRosToTrk) {
   const std::string bag = directory / "short.bag";
   ASSERT_TRUE(trk_bag(short_take, bag, {"--camera", camera}));
   const std::string sent = directory / "sent.trk";
-  Program player(launch("playback.launch", {"file:=" + bag, "camera:=" + camera, "sinks:=['file:" + sent + "']"}));
-  player.rest_of_out();
-  player.rest_of_err();
-  EXPECT_EQ(player.wait(), 0);
+  Roslaunch("playback.launch", {"file:=" + bag, "camera:=" + camera, "sinks:=['file:" + sent + "']", "delay:=5"})
+      .wait();
   const auto back = file::read_take(sent);
   EXPECT_GE(back.params.size(), 100u);
   EXPECT_TRUE(is_run_of(back.params, whole.params));

@@ -1,27 +1,27 @@
 // Several cameras in one node, and sources other than UDP.
-#include <csignal>
-
 #include <trk_bridge/CameraParams.h>
 
 #include "fixture.h"
 #include "free_slot.h"
-#include "ros/trk_to_ros_parameters.h"
+#include "program.h"
 #include "temporary_directory.h"
-#include "trk_bridge/transport/sink.h"
+#include "trk_bridge/endpoints/endpoints.h"
 
 namespace trk_bridge::test {
 namespace {
 
-class SeveralCameras : public NodeTest {};
+class SeveralCameras : public TrkToRosTest {};
 
 TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory) {
+  Program loading({"/usr/bin/env", "rosparam", "load", THREE_CAMERAS, "/three_cameras"});
+  const std::string said = loading.rest_of_err();
+  ASSERT_EQ(loading.wait(), 0) << said;
   XmlRpc::XmlRpcValue tree;
   ASSERT_TRUE(::ros::param::get("/three_cameras", tree));
   ASSERT_EQ(ros1::read_trk_to_ros_parameters(tree, "unused").cameras.size(), 3u) << "the file itself is sound";
-  const auto port = free_udp_port();
   const FreeSlot free_slot;
   const std::string slot = "shm:" + std::to_string(free_slot.number());
-  tree["source"] = udp_url(port);
+  tree["source"] = any_udp_port;
   tree["cameras"]["pedestal"]["source"] = slot;
   tree["diagnostic_period"] = 0.1;
   ::ros::param::set(node_name, tree);
@@ -31,12 +31,9 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
   TransformRecorder frame_one("/tf", "crane1"), frame_two("/tf", "crane2"), frame_three("/tf", "pedestal_head");
   TransformRecorder optical("/tf_static", "pedestal_optical");
   ASSERT_TRUE(starts("pedestal"));
-  ASSERT_TRUE(eventually([&] {
-    return one.connected_to(node_name) && two.connected_to(node_name) && three.connected_to(node_name) &&
-           frame_one.connected_to(node_name);
-  }));
+  ASSERT_TRUE(tells_of("crane1"));
 
-  Tracker tracker(port);
+  Tracker tracker(port("crane1"));
   auto sink = endpoints::open_sink(slot);
   for (std::uint64_t counter = 1; counter <= 3; ++counter) {
     tracker.send(test::params(counter, 1));
@@ -60,7 +57,7 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
   EXPECT_TRUE(sink->close());
 }
 
-class FromFile : public NodeTest {
+class FromFile : public TrkToRosTest {
  protected:
   const TemporaryDirectory folder;
 };
@@ -79,17 +76,14 @@ TEST_F(FromFile, ATakeIsPlayedToItsEndAndTheNodeLivesOn) {
   EXPECT_TRUE(diagnostics.tells(status_name(), diagnostic_msgs::DiagnosticStatus::OK, "ended"));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "received", "50"));
   ASSERT_TRUE(eventually([&] { return !params.messages.empty() && params.messages.back().counter == 50; }));
-  node->signal(SIGINT);
-  EXPECT_EQ(node->wait(), 0) << "it lived until it was ended";
+  EXPECT_TRUE(::ros::ok()) << "the end of a take is not that of the node";
 }
 
 TEST_F(FromFile, AFaultyTakeIsRefusedWithItsLine) {
   const std::string path = folder / "faulty.trk";
   write_text(path, "DMC01\n00:00:00:00:1\n1920 1080 0 0 0 0 9.59 5.39 9.59 5.39\n1 1 2 three\n");
   set("source", "file:" + path);
-  start();
-  EXPECT_THAT(node->rest_of_err(), ::testing::HasSubstr("faulty.trk:4"));
-  EXPECT_EQ(node->wait(), 1);
+  EXPECT_THAT(refusal(), ::testing::HasSubstr("faulty.trk:4"));
 }
 
 }  // namespace

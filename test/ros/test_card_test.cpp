@@ -9,6 +9,9 @@
 
 #include <image_geometry/pinhole_camera_model.h>
 #include <nodelet/nodelet.h>
+#include <ros/callback_queue.h>
+#include <ros/spinner.h>
+#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <tf2_ros/buffer.h>
@@ -20,7 +23,9 @@
 #include "fixture.h"
 #include "picture_measure.h"
 #include "repeating.h"
+#include "demo/test_card.h"
 #include "trk_bridge/ros/frames.h"
+#include "ros/parameter_reader.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::test {
@@ -104,33 +109,37 @@ wire::CameraParams at(double pan, double tilt, double roll, double wide) {
   return params;
 }
 
-class TestCard : public NodeTest {
+class TestCard : public TrkToRosTest {
  protected:
   void SetUp() override {
-    const auto port = free_udp_port();
-    set("source", udp_url(port));
+    set("source", any_udp_port);
     ASSERT_TRUE(starts());
-    tracker_.emplace(port);
+    tracker_.emplace(port());
   }
 
   template <typename T>
   void set_card(const std::string& key, const T& value) {
-    ::ros::param::set(name_space + "/test_card/" + key, value);
+    ::ros::param::set(card_name() + "/" + key, value);
   }
 
   void start_card() {
-    card_.emplace(std::vector<std::string>{TEST_CARD, "__ns:=" + name_space});
+    make_card();
     images_.emplace(name_space + "/image_raw");
     rectified_.emplace(name_space + "/image_rect");
     infos_.emplace(name_space + "/camera_info");
     params_.emplace(name_space + "/params");
     markers_.emplace(name_space + "/test_card");
-    const std::string card = name_space + "/test_card";
-    ASSERT_TRUE(eventually([&] {
-      return images_->connected_to(card) && rectified_->connected_to(card) && infos_->connected_to(node_name) &&
-             params_->connected_to(node_name) && !markers_->messages.empty();
-    }));
+    ASSERT_TRUE(eventually([this] { return !markers_->messages.empty(); }));
   }
+
+  /// Pictures are made in a thread of their own, as in a process of their own.
+  void make_card() {
+    ::ros::NodeHandle topics(name_space);
+    topics.setCallbackQueue(&card_callbacks_);
+    card_.emplace(topics, ::ros::NodeHandle(card_name()), card_name());
+    card_spinner_.start();
+  }
+  std::string card_name() const { return name_space + "/test_card"; }
 
   const visualization_msgs::Marker& marker(const std::string& of) const {
     const auto& all = markers_->messages.back().markers;
@@ -167,13 +176,7 @@ class TestCard : public NodeTest {
     });
     if (met) return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << images_->messages.size() << " images, " << rectified_->messages.size()
-                                         << " rectified, of " << fields
-                                         << " fields; the node says: " << words_of_card();
-  }
-
-  std::string words_of_card() {
-    card_->signal(SIGINT);
-    return card_->rest_of_out() + card_->rest_of_err();
+                                         << " rectified, of " << fields << " fields";
   }
 
   /// None when tf or CameraInfo do not know of the image's time.
@@ -246,7 +249,9 @@ class TestCard : public NodeTest {
   }
 
   std::optional<Tracker> tracker_;
-  std::optional<Program> card_;
+  ::ros::CallbackQueue card_callbacks_;
+  std::optional<demo::TestCard> card_;
+  ::ros::AsyncSpinner card_spinner_{1, &card_callbacks_};  // ends before the node
   std::optional<Recorder<sensor_msgs::Image>> images_, rectified_;
   std::optional<Recorder<sensor_msgs::CameraInfo>> infos_;
   std::optional<Recorder<trk_bridge::CameraParams>> params_;
@@ -351,8 +356,6 @@ TEST_F(TestCard, PairsEveryRectifiedImageWithACameraInfoOfItsOwn) {
   Recorder<sensor_msgs::Image> images(name_space + "/rectified/image");
   Recorder<sensor_msgs::CameraInfo> infos(name_space + "/rectified/camera_info");
   ASSERT_NO_FATAL_FAILURE(start_card());
-  const std::string card = name_space + "/test_card";
-  ASSERT_TRUE(eventually([&] { return images.connected_to(card) && infos.connected_to(card); }));
   // Topics arrive in no order among each other.
   constexpr std::size_t count = 5;
   const auto have_come = [&](const auto& recorder) {
@@ -387,35 +390,42 @@ TEST_F(TestCard, KeepsItsRateAndDrawsTheNewestParams) {
   set_card("rate", 5);
   ASSERT_NO_FATAL_FAILURE(start_card());
   const auto params = at(0, -5, 0, 1);
-  ASSERT_TRUE(send_until([&](int) { return params; }, [this] { return images_->messages.size() >= 8; }));
-  const auto& first = images_->messages[2].header.stamp;
-  const auto& last = images_->messages[7].header.stamp;
-  // Five periods, each prolonged by a field at most until the next params come, which does not add up.
-  EXPECT_GT((last - first).toSec(), 0.9);
-  EXPECT_LT((last - first).toSec(), 1.5);
+  // Five periods, each prolonged by a field at most until the next params come, which does not add up. A busy machine
+  // may hold them up meanwhile, but not all the time.
+  EXPECT_TRUE(send_until([&](int) { return params; },
+                         [this] {
+                           const auto count = images_->messages.size();
+                           if (count < 8) return false;
+                           const auto& first = images_->messages[count - 6].header.stamp;
+                           const double took = (images_->messages[count - 1].header.stamp - first).toSec();
+                           return took > 0.9 && took < 1.5;
+                         }));
 }
 
 TEST_F(TestCard, SaysThatThereIsNoPictureWithoutConstants) {
+  const Recorder<rosgraph_msgs::Log> log("/rosout");
   ASSERT_NO_FATAL_FAILURE(start_card());
   const Repeating sending(50, [this] {
     auto record = at(0, 0, 0, 1);
     record.counter = ++counter_;
     tracker_->send(record);
   });
-  std::optional<std::string> said;
-  do {
-    said = card_->err_line();
-  } while (said && said->find("no constants yet") == std::string::npos);
-  EXPECT_TRUE(said) << "it says nothing of the kind";
+  EXPECT_TRUE(eventually([&] {
+    return std::any_of(log.messages.begin(), log.messages.end(),
+                       [](const auto& line) { return line.msg.find("no constants yet") != std::string::npos; });
+  })) << "it says nothing of the kind";
   EXPECT_TRUE(eventually([this] { return params_->messages.size() > 5; }));
   EXPECT_TRUE(images_->messages.empty());
 }
 
 TEST_F(TestCard, RefusesParametersThatItDoesNotKnow) {
   set_card("spacign", 2);
-  Program card({TEST_CARD, "__ns:=" + name_space});
-  EXPECT_THAT(card.rest_of_err(), ::testing::AllOf(::testing::HasSubstr("spacign"), ::testing::HasSubstr("spacing")));
-  EXPECT_EQ(card.wait(), 1);
+  try {
+    make_card();
+    FAIL() << "it started";
+  } catch (const ros1::ParameterError& error) {
+    EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr("spacign"), ::testing::HasSubstr("spacing")));
+  }
 }
 
 }  // namespace

@@ -1,40 +1,38 @@
 // The worked cases through both nodes: trk over UDP, topics and tf, trk over UDP.
 #include <chrono>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
-#include <nodelet/NodeletLoad.h>
-#include <nodelet/NodeletUnload.h>
-
 #include "../unit/camera/worked_cases.h"
 #include "fixture.h"
 #include "receiver.h"
+#include "nodes/ros_to_trk.h"
 #include "same_camera.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::test {
 namespace {
 
-/// trk_to_ros as a process; what of ros_to_trk comes back is the test's.
-class ThereAndBack : public NodeTest {
+/// What of ros_to_trk comes back is the test's.
+class ThereAndBack : public TrkToRosTest {
  protected:
   void SetUp() override {
-    const auto port = free_udp_port();
-    set("source", udp_url(port));
+    set("source", any_udp_port);
     ASSERT_TRUE(starts());
-    tracker.emplace(port);
+    tracker.emplace(port());
   }
 
   /// Sends a case until what comes back is `same`: constants and parameters come on connections of their own, so that
   /// the first after a change may meet the constants before.
   template <typename Same>
   void expect_back(const WorkedCase& one, Receiver& receiver, Same same) {
-    constexpr int patience = 200;
+    const auto end = std::chrono::steady_clock::now() + deadline;
     ::testing::AssertionResult result = ::testing::AssertionFailure() << "nothing came back";
-    for (int attempt = 0; attempt < patience && !result; ++attempt) {
+    while (!result && std::chrono::steady_clock::now() < end) {
       auto record = one.params;
       record.counter = ++counter;
       const auto sets = receiver.params.size();
@@ -59,10 +57,10 @@ class ThroughParams : public ThereAndBack, public ::testing::WithParamInterface<
 
 TEST_P(ThroughParams, EveryCaseIsTheSameCamera) {
   Receiver receiver;
-  ::ros::param::set(name_space + "/ros_to_trk/sinks", std::vector<std::string>{receiver.url() + "?binary=1"});
-  ::ros::param::set(name_space + "/ros_to_trk/format", GetParam());
-  ::ros::param::set(name_space + "/ros_to_trk/diagnostic_period", 0.1);
-  const Program outgoing({ROS_TO_TRK, "__ns:=" + name_space});
+  const std::string name = name_space + "/ros_to_trk";
+  ::ros::param::set(name + "/sinks", std::vector<std::string>{receiver.url() + "?binary=1"});
+  ::ros::param::set(name + "/format", GetParam());
+  const nodes::RosToTrk outgoing(::ros::NodeHandle(name_space), ::ros::NodeHandle(name), name);
   for (const auto& one : worked_cases()) {
     expect_back(one, receiver, [&one](const camera::Camera& back) { return same_to_the_digits(back, one.camera); });
     if (HasFailure()) return;
@@ -76,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(As, ThroughParams,
                                            "ignore_blank keep_aspect shift_in_pixels"),
                          [](const auto& test) { return test.index == 0 ? "Euler" : "Everything"; });
 
-/// ros_to_trk as a nodelet, loaded anew for every chip.
+/// ros_to_trk is made again for every chip.
 class ThroughTf : public ThereAndBack {
  protected:
   using Picture = std::tuple<double, double, int, int, int, int>;
@@ -85,7 +83,9 @@ class ThroughTf : public ThereAndBack {
     return {c.chip_width, c.chip_height, c.blank_left, c.blank_right, c.blank_top, c.blank_bottom};
   }
 
-  void load(const std::string& name, const wire::CameraConstants& c, const Receiver& receiver) {
+  std::unique_ptr<nodes::RosToTrk> ros_to_trk(const std::string& name_space_of_chip, const wire::CameraConstants& c,
+                                              const Receiver& receiver) {
+    const std::string name = name_space_of_chip + "/ros_to_trk";
     const auto set_one = [&name](const char* key, const auto& value) { ::ros::param::set(name + "/" + key, value); };
     set_one("sinks", std::vector<std::string>{receiver.url()});
     set_one("input", "tf");
@@ -99,38 +99,26 @@ class ThroughTf : public ThereAndBack {
     set_one("blank_right", c.blank_right);
     set_one("blank_top", c.blank_top);
     set_one("blank_bottom", c.blank_bottom);
-    nodelet::NodeletLoad request;
-    request.request.name = name;
-    request.request.type = "trk_bridge/RosToTrk";
-    request.request.remap_source_args = {name.substr(0, name.find_last_of('/')) + "/camera_info"};
-    request.request.remap_target_args = {name_space + "/camera_info"};
-    ASSERT_TRUE(::ros::service::waitForService("/manager/load_nodelet", ::ros::Duration(20)));
-    ASSERT_TRUE(::ros::service::call("/manager/load_nodelet", request) && request.response.success);
-  }
-
-  void unload(const std::string& name) {
-    nodelet::NodeletUnload request;
-    request.request.name = name;
-    ASSERT_TRUE(::ros::service::call("/manager/unload_nodelet", request) && request.response.success);
+    const ::ros::M_string remapped{{"camera_info", name_space + "/camera_info"}};
+    return std::make_unique<nodes::RosToTrk>(::ros::NodeHandle(name_space_of_chip, remapped), ::ros::NodeHandle(name),
+                                             name);
   }
 };
 
 TEST_F(ThroughTf, EveryCaseIsTheSameCamera) {
   std::map<Picture, std::vector<WorkedCase>> by_picture;
   for (const auto& one : worked_cases()) by_picture[picture_of(one.constants)].push_back(one);
-  int loaded = 0;
+  int made = 0;
   std::size_t cases = 0;
   for (const auto& [picture, ones] : by_picture) {
-    const std::string name = "/chip" + std::to_string(++loaded) + "/ros_to_trk";
     Receiver receiver;
-    ASSERT_NO_FATAL_FAILURE(load(name, ones.front().constants, receiver));
+    const auto outgoing = ros_to_trk("/chip" + std::to_string(++made), ones.front().constants, receiver);
     for (const auto& one : ones) {
       expect_back(one, receiver,
                   [&one](const camera::Camera& back) { return same_to_the_eye(back, one.camera, one.constants); });
       if (HasFailure()) return;
     }
     for (std::size_t i = 0; i < receiver.params.size(); ++i) EXPECT_EQ(receiver.params[i].counter, i + 1);
-    ASSERT_NO_FATAL_FAILURE(unload(name));
     cases += ones.size();
   }
   EXPECT_EQ(cases, 256u);

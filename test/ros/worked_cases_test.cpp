@@ -16,21 +16,17 @@ namespace {
 
 double turn_apart(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
 
-class WorkedCases : public NodeTest, public ::testing::WithParamInterface<wire::Encoding> {
+class WorkedCases : public TrkToRosTest, public ::testing::WithParamInterface<wire::Encoding> {
  protected:
   void SetUp() override {
-    const auto port = free_udp_port();
-    set("source", udp_url(port));
+    set("source", any_udp_port);
     set("diagnostic_period", 1.0);
     params.emplace(name_space + "/params");
     infos.emplace(name_space + "/camera_info");
     transforms.emplace("/tf", camera);
     statics.emplace("/tf_static", camera + "_optical");
     ASSERT_TRUE(starts());
-    ASSERT_TRUE(eventually([this] {
-      return params->connected_to(node_name) && infos->connected_to(node_name) && transforms->connected_to(node_name);
-    }));
-    tracker.emplace(port);
+    tracker.emplace(port());
   }
 
   void send(const wire::CameraConstants& constants, const wire::CameraParams& record) {

@@ -63,7 +63,8 @@ TEST(Bag, IsDrawnInEveryLoop) {
     EXPECT_TRUE(vanishes(green)) << "what was after now has left no trail";
     const auto began = ::ros::Time::now();
     ASSERT_TRUE(becomes(there)) << statuses(display);
-    EXPECT_FALSE(window().picture().pixels(green).empty()) << "the trail from here to there";
+    EXPECT_TRUE(window().eventually([&] { return !window().picture().pixels(green).empty(); }))
+        << "the trail from here to there";
     for (const char* line : {"Camera Info", "Camera Params", "Transform", "Lens", "Age"}) {
       EXPECT_TRUE(window().tells(display, line, rviz::StatusProperty::Ok)) << line;
     }

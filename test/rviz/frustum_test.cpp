@@ -73,14 +73,13 @@ int expect_bent(const Picture& picture, const TrackedCamera& camera, double dept
   return bent_edges;
 }
 
-class Frustum : public NodeTest, public ::testing::WithParamInterface<std::tuple<Pose, LensCase>> {
+class Frustum : public TrkToRosTest, public ::testing::WithParamInterface<std::tuple<Pose, LensCase>> {
  protected:
   void SetUp() override {
-    const auto port = free_udp_port();
-    set("source", udp_url(port));
+    set("source", any_udp_port);
     window().load(TRK_BRIDGE_RVIZ_TEST_CONFIGURATION);
     ASSERT_TRUE(starts());
-    tracker.emplace(port);
+    tracker.emplace(port());
   }
 
   void track(const TrackedCamera& camera_now) {

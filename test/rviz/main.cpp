@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <QApplication>
 
+#include "test_limit.h"
 #include "window.h"
 
 namespace trk_bridge::test {
@@ -43,6 +44,7 @@ std::string results_directory() {
 /// Its first argument is the configuration that rviz starts with; rostest may add some of its own.
 int main(int argc, char** argv) {
   ::testing::InitGoogleMock(&argc, argv);
+  trk_bridge::test::limit_each_test();
   ::ros::init(argc, argv, "rviz_rostest");
   if (argc < 2) {
     std::fprintf(stderr, "usage: %s CONFIGURATION\n", argv[0]);

@@ -19,6 +19,7 @@
 #include <QRect>
 #include <QVariant>
 
+#include "deadline.h"
 #include "picture.h"
 #include "view.h"
 
@@ -49,7 +50,7 @@ class RvizWindow {
 
   /// Handles what the window and ROS have to do until `condition` is met or the deadline has passed; whether it was
   /// met.
-  bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds within = std::chrono::seconds(20));
+  bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds within = deadline);
 
   /// Handles what there is to do until rviz has drawn the scene anew, from its beginning, so many times.
   ::testing::AssertionResult draws(int frames = 2);

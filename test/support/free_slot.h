@@ -1,16 +1,18 @@
 // A shared memory slot that nobody uses, for the time of one test.
 #pragma once
 
-#include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/ipc.h>
 #include <sys/shm.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "file_lock.h"
 
 namespace trk_bridge::test {
 
@@ -20,18 +22,15 @@ class FreeSlot {
   FreeSlot() {
     // From the end: the field takes low slots.
     for (number_ = 61; number_ >= 0; --number_) {
-      lock_ = ::open(lock_path().c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
-      if (lock_ < 0) continue;
-      if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 && ::access(path().c_str(), F_OK) != 0) return;
-      ::close(lock_);
+      FileLock lock("/tmp/trk_bridge_test_slot." + std::to_string(number_));
+      if (!lock.held() || has_file()) continue;
+      lock_.emplace(std::move(lock));
+      return;
     }
     throw std::runtime_error("no shared memory slot is free");
   }
 
-  ~FreeSlot() {
-    remove();
-    ::close(lock_);
-  }
+  ~FreeSlot() { remove(); }
 
   FreeSlot(const FreeSlot&) = delete;
   FreeSlot& operator=(const FreeSlot&) = delete;
@@ -68,11 +67,8 @@ class FreeSlot {
   }
 
  private:
-  // Stays: a lock file that is removed can be held twice.
-  std::string lock_path() const { return "/tmp/trk_bridge_test_slot." + std::to_string(number_); }
-
   int number_ = -1;
-  int lock_ = -1;
+  std::optional<FileLock> lock_;
 };
 
 }  // namespace trk_bridge::test

@@ -14,7 +14,7 @@
 
 #include "base/clock.h"
 #include "transport/counted_source.h"
-#include "transport/descriptor.h"
+#include "transport/socket.h"
 #include "trk_bridge/transport/sink.h"
 
 namespace trk_bridge::test {

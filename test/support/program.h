@@ -11,12 +11,16 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "deadline.h"
+
 namespace trk_bridge::test {
 
-/// Its standard input is empty. Whoever destroys a running one kills it.
+/// Its standard input is empty. Whoever destroys a running one kills it, and it is told to end when the thread that
+/// started it does.
 class Program {
  public:
   explicit Program(std::vector<std::string> words) : words_(std::move(words)) {
@@ -41,7 +45,7 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// The next line without its newline; none at the end, or when nothing comes for ten seconds.
+  /// The next line without its newline; none at the end, or when nothing comes within the deadline.
   std::optional<std::string> out_line() { return line(out_); }
   std::optional<std::string> err_line() { return line(err_); }
 
@@ -73,6 +77,7 @@ class Program {
   };
 
   [[noreturn]] void become(int out, int err) {
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     const int in = ::open("/dev/null", O_RDONLY);
     ::dup2(in, STDIN_FILENO);
     ::dup2(out, STDOUT_FILENO);
@@ -84,10 +89,10 @@ class Program {
     ::_exit(127);
   }
 
-  /// False at the end, or after ten seconds of silence.
+  /// False at the end, or after the deadline in silence.
   static bool more(Stream& stream) {
     pollfd watched{stream.fd, POLLIN, 0};
-    if (::poll(&watched, 1, 10'000) != 1) return false;
+    if (::poll(&watched, 1, static_cast<int>(std::chrono::milliseconds(deadline).count())) != 1) return false;
     char chunk[4096];
     const ssize_t got = ::read(stream.fd, chunk, sizeof chunk);
     if (got <= 0) return false;

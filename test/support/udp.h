@@ -18,15 +18,13 @@
 #include <string>
 #include <string_view>
 
+#include "deadline.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/codec.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::test {
-
-/// How long anything that has to happen may take.
-inline constexpr std::chrono::seconds deadline{10};
 
 /// A socket bound to an address of the loopback and a port that the kernel picks.
 class PlainSocket {
@@ -95,12 +93,14 @@ class PlainSocket {
   int fd_;
 };
 
-/// The port that a UDP source's name tells.
-inline std::uint16_t port_of(const transport::Source& source) {
-  const std::string name = source.name(), before = "udp port ";
+/// The port that the name of a UDP source tells.
+inline std::uint16_t udp_port_in(const std::string& name) {
+  const std::string before = "udp port ";
   if (name.compare(0, before.size(), before) != 0) throw std::runtime_error("no port in \"" + name + "\"");
   return static_cast<std::uint16_t>(std::stoi(name.substr(before.size())));
 }
+
+inline std::uint16_t port_of(const transport::Source& source) { return udp_port_in(source.name()); }
 
 inline wire::CameraParams params(std::uint64_t counter, std::uint32_t id = 0) {
   wire::CameraParams p;

@@ -28,9 +28,9 @@ struct SequenceCounts {
 
 /// Judges the counters of one camera. Not synchronised, never allocates.
 ///
-/// A late record that had been counted as lost is taken off that count again, and so is told from a duplicate, as far
-/// as `window` counts behind the newest; one older than that is late. A 4-byte counter that wraps goes on (0xFFFFFFFF,
-/// 0 is next).
+/// A late record that had been counted as lost is taken off that count again, and so is not mistaken for a duplicate,
+/// as far as `window` counts behind the newest; one older than that is late. A 4-byte counter that wraps goes on
+/// (0xFFFFFFFF, 0 is next).
 class Sequence {
  public:
   /// `field_rate` in Hz, more than 0 and at most 1e6: how many counts a second has. Throws std::invalid_argument.

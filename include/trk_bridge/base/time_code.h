@@ -22,7 +22,7 @@ inline bool operator==(const TimeCode& a, const TimeCode& b) noexcept {
 inline bool operator!=(const TimeCode& a, const TimeCode& b) noexcept { return !(a == b); }
 
 /// One or two digits each. The error names the text and what is allowed. Frames may be up to 99 here, for only a field
-/// rate tells how many there are: nanoseconds_of() checks that.
+/// rate defines how many there are: nanoseconds_of() checks that.
 tl::expected<TimeCode, std::string> parse_time_code(std::string_view);
 /// Two digits each, one for the field: "10:20:30:12:1".
 std::string to_string(const TimeCode&);
@@ -32,7 +32,7 @@ std::string to_string(const TimeCode&);
 tl::expected<std::int64_t, std::string> nanoseconds_of(const TimeCode&, double field_rate, std::uint64_t index);
 
 /// The way back: the code of the field nearest to a time after midnight (ns, not negative); after 23:59:59 the day's
-/// codes begin again. An error for rates outside of 1 to 1e6 Hz and for a frame above 99, which a code cannot tell.
+/// codes begin again. An error for rates outside of 1 to 1e6 Hz and for a frame above 99, which a code cannot express.
 tl::expected<TimeCode, std::string> time_code_at(std::int64_t nanoseconds, double field_rate);
 
 }  // namespace trk_bridge::base

@@ -1,4 +1,4 @@
-// The lens as ROS tells it: K and a fitted D (camera model, "CameraInfo").
+// The lens in the terms of ROS: K and a fitted D (camera model, "CameraInfo").
 #pragma once
 
 #include <array>
@@ -43,9 +43,9 @@ inline constexpr double plumb_bob_tolerance = 0.01;
 class Calibrator {
  public:
   /// The fit covers the image to its farthest corner from the optical axis, no further: whoever projects points far
-  /// outside of the image must clip first, since there the lens itself may fold. The best model is told however near it
-  /// comes, with its residual, for the caller to warn of; errors are bad_constants, bad_field_of_view (image distance),
-  /// not_finite, not_monotonic (k1, k2 fold within the image) and no_fit.
+  /// outside of the image must clip first, since there the lens itself may fold. The best model is given however near
+  /// it comes, with its residual, for the caller to warn of; errors are bad_constants, bad_field_of_view (image
+  /// distance), not_finite, not_monotonic (k1, k2 fold within the image) and no_fit.
   [[nodiscard]] Result<Calibration> calibrate(const Lens&, const wire::CameraConstants&) noexcept;
 
   /// How many fits were made so far.
@@ -66,7 +66,7 @@ class Calibrator {
   std::uint64_t fits_ = 0;
 };
 
-/// What a CameraInfo says of a lens, in trk's terms, and what trk cannot tell of it. Worst over the image, in pixels.
+/// What a CameraInfo says of a lens, in trk's terms, and what trk has no terms for. Worst over the image, in pixels.
 struct FittedLens {
   Lens lens;              ///< focdist and aperture are 0: CameraInfo does not know them
   double residual = 0;    ///< error of the radial fit
@@ -79,6 +79,6 @@ struct FittedLens {
 /// Errors are bad_constants, bad_calibration, and not_monotonic where D, or k1 and k2 fitted to it, fold within the
 /// image. Takes about a tenth of a millisecond: keep the result while K and D stay.
 [[nodiscard]] Result<FittedLens> fit_lens(const std::array<double, 9>& k, const std::vector<double>& d,
-                                         const wire::CameraConstants& constants) noexcept;
+                                          const wire::CameraConstants& constants) noexcept;
 
 }  // namespace trk_bridge::camera

@@ -18,8 +18,9 @@ tl::expected<transport::SourceEndpoint, std::string> parse_source(std::string_vi
 /// of every scheme.
 tl::expected<transport::SinkEndpoint, std::string> parse_sink(std::string_view url);
 
-/// Both at once: a wrong URL is a TransportError, too.
+/// Reads a URL and opens it: a wrong URL is a TransportError, too. `field_rate` as in SourceEndpoint::open.
 std::unique_ptr<transport::Source> open_source(std::string_view url, double field_rate = 50.0);
+/// Reads a URL and opens it, likewise.
 std::unique_ptr<transport::Sink> open_sink(std::string_view url);
 
 }  // namespace trk_bridge::endpoints

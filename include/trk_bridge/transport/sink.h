@@ -7,7 +7,7 @@
 #include <tl/expected.hpp>
 
 #include "trk_bridge/base/snapshot.h"
-#include "trk_bridge/transport/fault.h"
+#include "trk_bridge/transport/sample.h"
 #include "trk_bridge/wire/record.h"
 
 namespace trk_bridge::transport {
@@ -46,8 +46,8 @@ using Written = tl::expected<void, SinkFault>;
 /// One place that records go to. What is written before or after a failed write is not lost by it. One thread at a
 /// time, but for statistics().
 ///
-/// Whether constants are new is the caller's matter (camera::Converter knows): a sink writes what it is given. Receivers
-/// of datagrams that join late would never see constants, so that datagram sinks repeat them by themselves.
+/// Whether constants are new is the caller's matter (camera::Converter knows): a sink writes what it is given.
+/// Receivers of datagrams that join late would never see constants, so that datagram sinks repeat them by themselves.
 class Sink {
  public:
   virtual ~Sink() = default;

@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "trk_bridge/transport/fault.h"
 #include "trk_bridge/transport/sample.h"
 
 namespace trk_bridge::transport {
@@ -22,7 +21,7 @@ class TransportError : public std::runtime_error {
 /// What one call of Source::receive met.
 enum class Event : std::uint8_t {
   sample,     ///< `Reception::sample` is good
-  malformed,  ///< one record was not sound: `fault`, `sample.sender` and `sample.arrival` tell of it; go on
+  malformed,  ///< one record was not sound: `fault`, `sample.sender` and `sample.arrival` are its; go on
   idle,       ///< nothing came within the time given
   stopped,    ///< stop() was called; every later call says so at once
   ended,      ///< the last record of a file was given

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "program.h"
-#include "base/time_text.h"
 #include "temporary_directory.h"
 #include "vectors.h"
 
@@ -73,26 +72,6 @@ TEST_F(BagCommandTest, WhatCannotBeReadIsNamed) {
   EXPECT_THAT(said, HasSubstr("none.trk"));
   EXPECT_EQ(run({directory / "none.bag", directory / "x.trk"}), 1);
   EXPECT_THAT(said, HasSubstr("No such file"));
-}
-
-TEST(Moments, AreReadToTheNanosecond) {
-  EXPECT_EQ(base::parse_date("1970-01-02"), 86'400'000'000'000);
-  EXPECT_EQ(base::parse_date("2026-11-22"), 1'795'305'600'000'000'000);
-  EXPECT_EQ(base::parse_moment("1700000000.123456789"), 1'700'000'000'123'456'789);
-  EXPECT_EQ(base::parse_moment("5"), 5'000'000'000);
-  EXPECT_EQ(base::parse_moment("2026-11-22T10:20:30.5Z"), 1'795'305'600'000'000'000 + 37'230'500'000'000);
-  EXPECT_EQ(base::parse_moment("2026-11-22T10:20:30"), 1'795'305'600'000'000'000 + 37'230'000'000'000);
-}
-
-TEST(Moments, AreRefusedWhenTheyAreNone) {
-  for (const char* text :
-       {"", "0", "-1", "1.", ".5", "1.0000000001", "1e9", "4294967296", "2026-11-22T", "2026-11-22T24:00:00",
-        "2026-11-22T10:60:00", "2026-11-22T10:20", "2026-02-30T10:20:30", "tomorrow", "12 "}) {
-    EXPECT_FALSE(base::parse_moment(text)) << text;
-  }
-  for (const char* text : {"", "2026", "2026-13-01", "2026-02-30", "1969-12-31", "2026-11-22&rate=50", "2026-11-22 "}) {
-    EXPECT_FALSE(base::parse_date(text)) << text;
-  }
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
+#include "trk_bridge/base/time_code.h"
+
 #include <cstdint>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "file/take_file.h"
 
 namespace trk_bridge::base {
 namespace {

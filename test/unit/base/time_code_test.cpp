@@ -1,9 +1,9 @@
+#include "trk_bridge/base/time_code.h"
+
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "file/take_file.h"
 
 namespace trk_bridge::base {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "free_slot.h"
 #include "program.h"
+#include "reserved_port.h"
 #include "temporary_directory.h"
-#include "udp.h"
 
 namespace trk_bridge::test {
 namespace {
@@ -12,8 +12,8 @@ namespace {
 TEST(CPrograms, c99_uses_everything_and_leaves_no_memory_behind) {
   FreeSlot slot;
   const TemporaryDirectory directory;
-  const std::string port = std::to_string(PlainSocket().port());
-  Program program({C99_USER, std::to_string(slot.number()), port, directory / "take.trk"});
+  const ReservedPort port;
+  Program program({C99_USER, std::to_string(slot.number()), port.text(), directory / "take.trk"});
   EXPECT_EQ(program.rest_of_err(), "");
   EXPECT_EQ(program.wait(), 0);
   EXPECT_FALSE(slot.has_file()) << "closed at exit";

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "free_slot.h"
+#include "reserved_port.h"
 #include "temporary_directory.h"
 #include "udp.h"
 
@@ -19,6 +20,7 @@ namespace {
 
 using trk_bridge::test::FreeSlot;
 using trk_bridge::test::PlainSocket;
+using trk_bridge::test::ReservedPort;
 
 trkCameraParams params(unsigned long counter) {
   trkCameraParams p{};
@@ -173,7 +175,8 @@ class Net : public ::testing::TestWithParam<int> {
     return p.counter;
   }
 
-  const std::uint16_t port = PlainSocket().port();
+  const ReservedPort reserved;
+  const std::uint16_t port = reserved.number();
   trkHandle writer = nullptr, reader = nullptr;
   trkCameraParams p{};
   trkCameraConstants c{};

@@ -41,8 +41,8 @@ double measured_residual(const Lens& lens, const CameraConstants& constants, con
   for (int i = 1; i <= 2000; ++i) {
     const double r = reach * i / 2000;
     const double undistorted = undistort(lens, Eigen::Vector2d(r, 0) - lens.center_shift).x() + lens.center_shift.x();
-    const double told = undistorted * opencv_factor(distortion, undistorted / lens.image_distance);
-    worst = std::max(worst, std::abs(told - r) * std::max(raster.mx, raster.my));
+    const double distorted = undistorted * opencv_factor(distortion, undistorted / lens.image_distance);
+    worst = std::max(worst, std::abs(distorted - r) * std::max(raster.mx, raster.my));
   }
   return worst;
 }
@@ -82,8 +82,8 @@ TEST(Calibrator, KeepsPointsJustOutsideOutside) {
     ASSERT_TRUE(calibration) << describe(calibration.error());
     for (double r = corner; r < 1.2 * corner; r += 0.01) {
       const double undistorted = undistort(lens, {r, 0}).x();
-      const double told = undistorted * opencv_factor(calibration->distortion, undistorted / lens.image_distance);
-      EXPECT_NEAR(told, r, 0.03 * r) << "share " << share;
+      const double distorted = undistorted * opencv_factor(calibration->distortion, undistorted / lens.image_distance);
+      EXPECT_NEAR(distorted, r, 0.03 * r) << "share " << share;
     }
   }
 }
@@ -261,11 +261,11 @@ TEST(LensOf, ReadsEveryLengthOfD) {
 
 TEST(LensOf, TellsItsResidualHonestly) {
   const std::array<double, 9> k = {1600, 0, 959.5, 0, 1600 * (1080 / 5.39) / (1920 / 9.59), 539.5, 0, 0, 1};
-  const Distortion told{DistortionModel::rational_polynomial, {-0.3, 0.1, 0, 0, -0.02, 0.05, -0.01, 0.003}, 0};
-  const auto fitted = fit_lens(k, published(told), hd);
+  const Distortion distortion{DistortionModel::rational_polynomial, {-0.3, 0.1, 0, 0, -0.02, 0.05, -0.01, 0.003}, 0};
+  const auto fitted = fit_lens(k, published(distortion), hd);
   ASSERT_TRUE(fitted) << describe(fitted.error());
   EXPECT_GT(fitted->residual, 1e-3);
-  EXPECT_NEAR(measured_residual(fitted->lens, hd, told), fitted->residual, 0.1 * fitted->residual);
+  EXPECT_NEAR(measured_residual(fitted->lens, hd, distortion), fitted->residual, 0.1 * fitted->residual);
 }
 
 TEST(LensOf, SaysHowMuchIsLost) {
@@ -275,7 +275,7 @@ TEST(LensOf, SaysHowMuchIsLost) {
   const auto tangential = fit_lens(k, {0, 0, 0, 1e-3, 0}, square);
   ASSERT_TRUE(tangential);
   EXPECT_NEAR(tangential->tangential, 1000 * 1e-3 * std::hypot(4 * 0.25, 2 * 0.25), 1e-9);
-  // fy two percent more than the chip's height says: the uppermost row is off by two percent of its distance.
+  // fy two percent more than the chip's height gives: the uppermost row is off by two percent of its distance.
   const auto aspect = fit_lens({1000, 0, 499.5, 0, 1000 / 0.98, 499.5, 0, 0, 1}, {}, square);
   ASSERT_TRUE(aspect);
   EXPECT_NEAR(aspect->aspect, 0.02 * 500, 1e-9);

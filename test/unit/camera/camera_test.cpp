@@ -130,7 +130,7 @@ TEST(Angles, AreExactAtRightAngles) {
 
 TEST(Angles, BeyondTheCanonicalRangeAreTheSameRotation) {
   struct Same {
-    PanTiltRoll told, canonical;
+    PanTiltRoll given, canonical;
   };
   const Same pairs[] = {
       {{725, 0, 0}, {5, 0, 0}},       {{0, 100, 0}, {180, 80, 180}}, {{10, -135, 20}, {-170, -45, -160}},
@@ -138,7 +138,7 @@ TEST(Angles, BeyondTheCanonicalRangeAreTheSameRotation) {
       {{0, 360 + 30, 0}, {0, 30, 0}},
   };
   for (const auto& same : pairs) {
-    const PanTiltRoll angles = pan_tilt_roll(rotation_of(same.told));
+    const PanTiltRoll angles = pan_tilt_roll(rotation_of(same.given));
     EXPECT_NEAR(angles.pan, same.canonical.pan, 1e-12);
     EXPECT_NEAR(angles.tilt, same.canonical.tilt, 1e-12);
     EXPECT_NEAR(angles.roll, same.canonical.roll, 1e-12);
@@ -269,7 +269,7 @@ TEST(FieldOfView, MustBeAnAngleOrADistance) {
     params.fov = angle;
     expect_error(decode_lens(params, &sound_constants), CameraReason::bad_field_of_view);
   }
-  // Neither of these can be told as an angle that reads back.
+  // Neither of these can be written as an angle that reads back.
   for (const double distance : {1e-300, 5e-324}) {
     expect_error(encode(Camera{Eigen::Isometry3d::Identity(), Lens{distance}}, wire::field_of_view, &sound_constants),
                  CameraReason::bad_field_of_view);

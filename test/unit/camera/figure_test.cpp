@@ -127,7 +127,7 @@ TEST(ImageBorder, IsWhatTheLensesOfTheWorkedCasesSee) {
 }
 
 /// A lens whose image ends at a worked point has that point on its border: the inverse meets what the case says of the
-/// camera, as near as D tells the case's polynomial.
+/// camera, as near as D comes to the case's polynomial.
 TEST(ImageBorder, HasThePointsOfTheWorkedCases) {
   constexpr double tolerance = 0.02;  // pixels
   int tested = 0;
@@ -190,8 +190,8 @@ TEST(ImageBorder, IsOffTheAxisWithCentreShiftAndBlanks) {
   // 1920 x 1080 on 9.6 x 5.4 mm are 200 pixels a mm; 40 blank pixels on the right leave 1880 of them on the chip.
   wire::CameraConstants constants{0, 1920, 1080, 0, 40, 0, 0, 9.4, 5.4, 0, 0};
   const Lens lens{10, {0.5, -0.25}, 0, 0, 0, 0};
-  const ViewingLens told{camera_matrix(lens, constants), {}, 1920, 1080};
-  const auto border = image_border(told);
+  const ViewingLens viewing{camera_matrix(lens, constants), {}, 1920, 1080};
+  const auto border = image_border(viewing);
   ASSERT_TRUE(border);
   // On the chip the image reaches from -4.7 to 4.7 mm, and 0.2 mm of blanks; the axis is at +0.5, -0.25 of its centre
   // in the camera's x right, y up: x' = x + cx.

@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cstdint>
 #include <ctime>
+#include <filesystem>
 #include <string>
 #include <thread>
 #include <variant>
@@ -9,10 +10,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "file/scheme.h"
 #include "temporary_directory.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
-#include "file/take_file.h"
 #include "vectors.h"
 
 namespace trk_bridge::file {
@@ -21,6 +23,12 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using testing::HasSubstr;
+using transport::Event;
+using transport::Reception;
+using transport::SenderKind;
+using transport::SinkReason;
+using transport::SourceState;
+using transport::TransportError;
 
 constexpr std::int64_t field = 20'000'000;  // ns at 50 Hz
 constexpr std::int64_t day = 86'400'000'000'000;
@@ -30,13 +38,13 @@ constexpr std::int64_t of_day = (10 * 3600 + 20 * 60 + 30) * 1'000'000'000LL + 2
 class PlayFile : public testing::Test {
  protected:
   /// A take whose counters are 1..n.
-  FileEndpoint take_of(int n) {
+  SourceSettings take_of(int n) {
     std::string text = "DMC01\n10:20:30:12:1\n1920 1080 14 2 12 4 27 18 27 18\n";
     for (int i = 1; i <= n; ++i) text += "1 1 2 3 4 5 6 50 0 0 0 0 5 8 " + std::to_string(i) + "\n";
     test::write_text(path, text);
-    FileEndpoint endpoint;
-    endpoint.path = path;
-    return endpoint;
+    SourceSettings settings;
+    settings.path = path;
+    return settings;
   }
 
   test::TemporaryDirectory directory;
@@ -47,9 +55,9 @@ bool is_constants(const Reception& r) { return std::holds_alternative<wire::Came
 std::uint64_t counter(const Reception& r) { return std::get<wire::CameraParams>(r.sample.record).counter; }
 
 TEST_F(PlayFile, ConstantsFirstThenEveryFieldThenTheEnd) {
-  auto endpoint = take_of(3);
-  endpoint.speed = 0;
-  const auto source = open_source(Endpoint(endpoint));
+  auto settings = take_of(3);
+  settings.speed = 0;
+  const auto source = open_source(settings, 50.0);
   EXPECT_EQ(source->statistics().state, SourceState::waiting);
   EXPECT_THAT(source->statistics().waiting_for, HasSubstr(path));
   Reception r;
@@ -68,11 +76,11 @@ TEST_F(PlayFile, ConstantsFirstThenEveryFieldThenTheEnd) {
 }
 
 TEST_F(PlayFile, ArrivalIsTheTimeCodeOnTheDateAndRisesOverLoops) {
-  auto endpoint = take_of(2);
-  endpoint.speed = 0;
-  endpoint.loop = true;
-  endpoint.date = 20'000 * 86'400;  // 2024-10-04
-  const auto source = open_source(Endpoint(endpoint));
+  auto settings = take_of(2);
+  settings.speed = 0;
+  settings.loop = true;
+  settings.date = 20'000 * 86'400;  // 2024-10-04
+  const auto source = open_source(settings, 50.0);
   Reception r;
   std::int64_t index = 0;
   for (int round = 0; round < 3; ++round) {
@@ -88,21 +96,21 @@ TEST_F(PlayFile, ArrivalIsTheTimeCodeOnTheDateAndRisesOverLoops) {
 }
 
 TEST_F(PlayFile, WithoutADateItIsToday) {
-  auto endpoint = take_of(1);
-  endpoint.speed = 0;
+  auto settings = take_of(1);
+  settings.speed = 0;
   const std::int64_t before = std::time(nullptr) / 86'400;
-  const auto source = open_source(Endpoint(endpoint));
+  const auto source = open_source(settings, 50.0);
   const std::int64_t after = std::time(nullptr) / 86'400;
   Reception r;
   ASSERT_EQ(source->receive(r, 0ns), Event::sample);
   EXPECT_THAT(r.sample.arrival, testing::AllOf(testing::Ge(before * day + of_day), testing::Le(after * day + of_day)));
 }
 
-TEST_F(PlayFile, TheRateOfTheEndpointGoesBeforeTheCallers) {
-  auto endpoint = take_of(2);
-  endpoint.speed = 0;
-  endpoint.date = 0;
-  const auto arrival_of_second = [](const Endpoint& e, double field_rate) {
+TEST_F(PlayFile, TheRateOfTheSettingsGoesBeforeTheCallers) {
+  auto settings = take_of(2);
+  settings.speed = 0;
+  settings.date = 0;
+  const auto arrival_of_second = [](const SourceSettings& e, double field_rate) {
     const auto source = open_source(e, field_rate);
     Reception r;
     for (int i = 0; i < 3; ++i) EXPECT_EQ(source->receive(r, 0ns), Event::sample);
@@ -110,17 +118,17 @@ TEST_F(PlayFile, TheRateOfTheEndpointGoesBeforeTheCallers) {
   };
   // 30 frames a second: frame 12 is field 24.
   const std::int64_t seconds = 10 * 3600 + 20 * 60 + 30;
-  EXPECT_EQ(arrival_of_second(endpoint, 60.0),
+  EXPECT_EQ(arrival_of_second(settings, 60.0),
             seconds * 1'000'000'000 + 25 * 1'000'000'000LL / 60 + 1);  // .6 rounds up
-  endpoint.rate = 100.0;
-  EXPECT_EQ(arrival_of_second(endpoint, 60.0), seconds * 1'000'000'000 + 250'000'000LL);
+  settings.rate = 100.0;
+  EXPECT_EQ(arrival_of_second(settings, 60.0), seconds * 1'000'000'000 + 250'000'000LL);
 }
 
 TEST_F(PlayFile, ArrivalNowIsTheWallClock) {
-  auto endpoint = take_of(1);
-  endpoint.speed = 0;
-  endpoint.time = FileTime::now;
-  const auto source = open_source(Endpoint(endpoint));
+  auto settings = take_of(1);
+  settings.speed = 0;
+  settings.time = FileTime::now;
+  const auto source = open_source(settings, 50.0);
   const auto wall = [] {
     return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
   };
@@ -131,9 +139,9 @@ TEST_F(PlayFile, ArrivalNowIsTheWallClock) {
 }
 
 TEST_F(PlayFile, NoFieldIsEverEarlyAndTheScheduleDoesNotDrift) {
-  auto endpoint = take_of(21);
-  endpoint.speed = 4;  // 5 ms a field
-  const auto source = open_source(Endpoint(endpoint));
+  auto settings = take_of(21);
+  settings.speed = 4;  // 5 ms a field
+  const auto source = open_source(settings, 50.0);
   Reception r;
   const auto begin = Clock::now();
   ASSERT_EQ(source->receive(r, -1ns), Event::sample);
@@ -151,9 +159,9 @@ TEST_F(PlayFile, NoFieldIsEverEarlyAndTheScheduleDoesNotDrift) {
 }
 
 TEST_F(PlayFile, BeforeItsTimeAFieldIsNotThere) {
-  auto endpoint = take_of(2);
-  endpoint.speed = 0.001;  // 20 s a field
-  const auto source = open_source(Endpoint(endpoint));
+  auto settings = take_of(2);
+  settings.speed = 0.001;  // 20 s a field
+  const auto source = open_source(settings, 50.0);
   Reception r;
   ASSERT_EQ(source->receive(r, 0ns), Event::sample);
   ASSERT_EQ(source->receive(r, 0ns), Event::sample);
@@ -164,9 +172,9 @@ TEST_F(PlayFile, BeforeItsTimeAFieldIsNotThere) {
 }
 
 TEST_F(PlayFile, StopWakesAWaitingReaderForGood) {
-  auto endpoint = take_of(2);
-  endpoint.speed = 1e-6;
-  const auto source = open_source(Endpoint(endpoint));
+  auto settings = take_of(2);
+  settings.speed = 1e-6;
+  const auto source = open_source(settings, 50.0);
   Reception r;
   ASSERT_EQ(source->receive(r, 0ns), Event::sample);
   ASSERT_EQ(source->receive(r, 0ns), Event::sample);
@@ -177,19 +185,19 @@ TEST_F(PlayFile, StopWakesAWaitingReaderForGood) {
 }
 
 TEST_F(PlayFile, UnknownFormatBitsAreCounted) {
-  auto endpoint = take_of(0);
+  auto settings = take_of(0);
   test::write_text(path, test::read_text(path) + "401 1 2 3 4 5 6 50 0 0 0 0 5 8 1\n1 1 2 3 4 5 6 50 0 0 0 0 5 8 2\n");
-  endpoint.speed = 0;
-  const auto source = open_source(Endpoint(endpoint));
+  settings.speed = 0;
+  const auto source = open_source(settings, 50.0);
   Reception r;
   for (int i = 0; i < 3; ++i) ASSERT_EQ(source->receive(r, 0ns), Event::sample);
   EXPECT_EQ(source->statistics().unknown_format_bits, 1u);
 }
 
 TEST_F(PlayFile, WhatCannotBePlayedIsRefusedAtOpening) {
-  const auto error_of = [](const FileEndpoint& endpoint, double rate = 50.0) -> std::string {
+  const auto error_of = [](const SourceSettings& settings, double rate = 50.0) -> std::string {
     try {
-      static_cast<void>(open_source(Endpoint(endpoint), rate));
+      static_cast<void>(open_source(settings, rate));
     } catch (const TransportError& error) {
       return error.what();
     }
@@ -199,26 +207,25 @@ TEST_F(PlayFile, WhatCannotBePlayedIsRefusedAtOpening) {
   EXPECT_EQ(error_of(empty), "no error");
   empty.loop = true;
   EXPECT_THAT(error_of(empty), HasSubstr("loop=1"));
-  auto endpoint = take_of(1);
-  EXPECT_THAT(error_of(endpoint, 24.0), HasSubstr("10:20:30:12:1"));
-  EXPECT_THAT(error_of(endpoint, 0.0), HasSubstr("rate"));
-  EXPECT_THAT(error_of(endpoint, 1e300), HasSubstr("rate"));
-  endpoint.date = 253'402'214'400;  // 9999-12-31
-  EXPECT_THAT(error_of(endpoint), HasSubstr("date"));
-  endpoint.date.reset();
-  endpoint.speed = -1;
-  EXPECT_THAT(error_of(endpoint), HasSubstr("speed"));
-  endpoint.path += "x";
-  endpoint.speed = 1;
-  EXPECT_THAT(error_of(endpoint), HasSubstr("No such file"));
+  auto settings = take_of(1);
+  EXPECT_THAT(error_of(settings, 24.0), HasSubstr("10:20:30:12:1"));
+  EXPECT_THAT(error_of(settings, 0.0), HasSubstr("rate"));
+  EXPECT_THAT(error_of(settings, 1e300), HasSubstr("rate"));
+  settings.date = 253'402'214'400;  // 9999-12-31
+  EXPECT_THAT(error_of(settings), HasSubstr("date"));
+  settings.date.reset();
+  settings.speed = -1;
+  EXPECT_THAT(error_of(settings), HasSubstr("speed"));
+  settings.path += "x";
+  settings.speed = 1;
+  EXPECT_THAT(error_of(settings), HasSubstr("No such file"));
 }
 
 TEST_F(PlayFile, WhatTheSinkWroteComesBack) {
-  FileEndpoint endpoint;
-  endpoint.path = path;
-  endpoint.timecode = "01:02:03:04:2";
-  endpoint.speed = 0;
-  const auto sink = open_sink(Endpoint(endpoint));
+  SinkSettings sink_settings;
+  sink_settings.path = path;
+  sink_settings.time_code = {1, 2, 3, 4, 2};
+  const auto sink = open_sink(sink_settings);
   wire::CameraParams params;
   params.id = 7;
   params.format = 1;
@@ -230,11 +237,14 @@ TEST_F(PlayFile, WhatTheSinkWroteComesBack) {
   ASSERT_TRUE(sink->write(constants));
   ASSERT_TRUE(sink->write(params));
   ASSERT_TRUE(sink->close());
-  EXPECT_EQ(sink->statistics().constants, 1u);
+  EXPECT_EQ(sink->statistics().constants, 2u) << "both were written, though the file holds them once";
   EXPECT_EQ(sink->statistics().params, 1u);
   EXPECT_EQ(sink->statistics().errors, 1u);
 
-  const auto source = open_source(Endpoint(endpoint));
+  SourceSettings settings;
+  settings.path = path;
+  settings.speed = 0;
+  const auto source = open_source(settings, 50.0);
   Reception r;
   ASSERT_EQ(source->receive(r, 0ns), Event::sample);
   EXPECT_EQ(std::get<wire::CameraConstants>(r.sample.record), constants);
@@ -244,10 +254,8 @@ TEST_F(PlayFile, WhatTheSinkWroteComesBack) {
 }
 
 TEST_F(PlayFile, ASinkWithAWrongTimeCodeIsRefused) {
-  FileEndpoint endpoint;
-  endpoint.path = path;
-  endpoint.timecode = "25:00:00:00:1";
-  EXPECT_THROW(static_cast<void>(open_sink(Endpoint(endpoint))), TransportError);
+  EXPECT_THROW(static_cast<void>(endpoints::open_sink("file:" + path + "?timecode=25:00:00:00:1")), TransportError);
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ using std::filesystem::exists;
 using test::read_text;
 using test::write_text;
 using testing::HasSubstr;
+using transport::TransportError;
 
 class PartFileTest : public testing::Test {
  protected:

@@ -1,4 +1,4 @@
-#include "file/take_file.h"
+#include "file/take.h"
 
 #include <string>
 #include <vector>
@@ -19,6 +19,7 @@ using test::TemporaryDirectory;
 using test::write_text;
 using testing::HasSubstr;
 using testing::StartsWith;
+using transport::TransportError;
 
 const char* const head = "DMC01\n10:20:30:12:1\n1920 1080 14 2 12 4 27.0053 18.509 27.2322 18.7873\n";
 const char* const line = "1 14.5 -4 15 158 -78 137 53.5 0.1 0.05 -0.001 -7e-06 16.5 8 1000\n";

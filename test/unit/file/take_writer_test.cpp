@@ -12,9 +12,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "file/take.h"
 #include "temporary_directory.h"
 #include "trk_bridge/transport/source.h"
-#include "file/take_file.h"
 #include "vectors.h"
 
 namespace trk_bridge::file {
@@ -24,8 +24,10 @@ using std::filesystem::exists;
 using test::read_text;
 using test::write_text;
 using testing::HasSubstr;
+using transport::SinkReason;
+using transport::TransportError;
 
-constexpr TimeCode code{3, 13, 51, 0, 1};
+constexpr base::TimeCode code{3, 13, 51, 0, 1};
 
 wire::CameraConstants some_constants() {
   return test::constants_of(test::read_jsonl("field/document_lp64/constants.jsonl")[0]["fields"]);
@@ -216,7 +218,7 @@ TEST_F(WriteTake, WhatIsNotFiniteNeverGetsIntoAFile) {
   const auto result = writer.write(params);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().reason, SinkReason::not_encodable);
-  EXPECT_EQ(result.error().fault.reason, wire::Reason::not_finite);
+  EXPECT_STREQ(result.error().fault.name(), wire::name(wire::Reason::not_finite));
   EXPECT_TRUE(writer.write(some_params(2)));
 }
 

@@ -1,5 +1,5 @@
 // What is received while nobody draws.
-#include "rviz/inbox.h"
+#include "rviz/samples.h"
 
 #include <thread>
 

@@ -7,7 +7,8 @@
 #include <sys/stat.h>
 
 #include "free_slot.h"
-#include "shm/shm_segment.h"
+#include "shm/segment.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 
@@ -15,7 +16,13 @@ namespace trk_bridge::shm {
 namespace {
 
 using namespace std::chrono_literals;
+using endpoints::open_sink;
+using endpoints::open_source;
 using ::testing::HasSubstr;
+using transport::Event;
+using transport::Reception;
+using transport::SourceState;
+using transport::TransportError;
 
 std::string contents(int id, std::size_t size) {
   auto* memory = static_cast<char*>(::shmat(id, nullptr, SHM_RDONLY));
@@ -81,7 +88,7 @@ class Confused : public ::testing::Test {
 TEST_F(Confused, an_eight_byte_magic_with_rubbish_above_is_foreign) {
   const int id = slot.make_segment(528);
   auto* memory = static_cast<char*>(::shmat(id, nullptr, 0));
-  const std::uint64_t magic = 0x100000000ULL + shm_magic;
+  const std::uint64_t magic = 0x100000000ULL + segment_magic;
   std::memcpy(memory, &magic, sizeof magic);
   EXPECT_THAT(refusal(url), HasSubstr("0x12357BD01"));
   EXPECT_EQ(std::memcmp(memory, &magic, sizeof magic), 0);
@@ -122,7 +129,7 @@ TEST_F(Confused, a_directory_in_the_place_of_the_file_is_refused) {
 }
 
 TEST(ShmFaults, key_zero_is_explained) {
-  EXPECT_THAT(describe(ShmFault{ShmProblem::key_zero, 7}),
+  EXPECT_THAT(describe(SlotFault{SlotProblem::key_zero, 7}),
               HasSubstr("slot 7: /tmp/dmc_tracking_buffer.7 has the key 0"));
 }
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "free_slot.h"
-#include "shm/shm_segment.h"
+#include "shm/segment.h"
 #include "vectors.h"
 
 namespace trk_bridge::shm {
@@ -37,15 +37,15 @@ class FieldLayout : public ::testing::TestWithParam<FieldSegment> {
 
 /// The record as it went in, but for an id where the layout has none.
 template <typename Record>
-Record as_stored(Record record, const ShmLayout& layout) {
+Record as_stored(Record record, const SegmentLayout& layout) {
   if (layout.record.generation == wire::Generation::document) record.id = 0;
   return record;
 }
 
 TEST_P(FieldLayout, sizes_are_those_of_the_records) {
-  const ShmLayout* layout = shm_layout_of_size(GetParam().size);
+  const SegmentLayout* layout = layout_of_size(GetParam().size);
   ASSERT_NE(layout, nullptr);
-  EXPECT_EQ(layout, shm_layout_of(layout->record));
+  EXPECT_EQ(layout, layout_of(layout->record));
   EXPECT_EQ(layout->params_size, wire::params_size(layout->record));
   EXPECT_EQ(layout->constants_size, wire::constants_size(layout->record));
   EXPECT_EQ(bytes().size(), GetParam().size);
@@ -57,14 +57,14 @@ TEST_P(FieldLayout, last_writes_are_read) {
   void* memory = ::shmat(id, nullptr, 0);
   ASSERT_NE(memory, reinterpret_cast<void*>(-1));
   std::memcpy(memory, stored.data(), stored.size());
-  auto segment = ShmSegment::attach(slot.number());
+  auto segment = Segment::attach(slot.number());
   ASSERT_TRUE(segment) << describe(segment.error());
   EXPECT_EQ(segment->connected(), 2);
   EXPECT_EQ(segment->params_counter(), 3);
   EXPECT_EQ(segment->constants_counter(), 1);
 
   const auto written = writes();
-  ShmImage image;
+  RecordImage image;
   ASSERT_TRUE(segment->copy_params(image));
   const auto params = wire::params_from_image(image.view(), segment->layout().record);
   ASSERT_TRUE(params) << wire::describe(params.error());
@@ -81,7 +81,7 @@ TEST_P(FieldLayout, last_writes_are_read) {
 
 /// Which bytes of a record carry data: those that change when the record's fields do. Found by writing two records that
 /// differ in every bit of every field.
-std::string data_mask(const ShmLayout& layout, std::uint32_t format) {
+std::string data_mask(const SegmentLayout& layout, std::uint32_t format) {
   const auto all = [](double value) {
     wire::CameraParams p;
     p.matrix.fill(value);
@@ -113,8 +113,8 @@ std::string data_mask(const ShmLayout& layout, std::uint32_t format) {
 }
 
 TEST_P(FieldLayout, the_same_writes_give_the_same_bytes) {
-  const ShmLayout& layout = *shm_layout_of_size(GetParam().size);
-  auto segment = ShmSegment::attach_or_create(slot.number(), layout, 0666);
+  const SegmentLayout& layout = *layout_of_size(GetParam().size);
+  auto segment = Segment::attach_or_create(slot.number(), layout, 0666);
   ASSERT_TRUE(segment) << describe(segment.error());
   std::array<std::uint32_t, 2> formats{};
   std::size_t element = 0;
@@ -153,19 +153,19 @@ INSTANTIATE_TEST_SUITE_P(Field, FieldLayout,
                                            FieldSegment{"identified_i386", 524}, FieldSegment{"document_i386", 508}),
                          [](const auto& instance) { return instance.param.directory; });
 
-TEST(ShmLayout, other_sizes_and_other_machines_have_none) {
+TEST(SegmentLayout, other_sizes_and_other_machines_have_none) {
   for (const std::size_t size : {0U, 1U, 300U, 507U, 509U, 526U, 545U, 4096U})
-    EXPECT_EQ(shm_layout_of_size(size), nullptr);
-  EXPECT_EQ(shm_layout_of({wire::Generation::document, wire::Abi::llp64, wire::ByteOrder::little}), nullptr);
+    EXPECT_EQ(layout_of_size(size), nullptr);
+  EXPECT_EQ(layout_of({wire::Generation::document, wire::Abi::llp64, wire::ByteOrder::little}), nullptr);
 }
 
 TEST(ShmSlotPath, one_character_a_slot) {
-  EXPECT_EQ(shm_slot_path(0), "/tmp/dmc_tracking_buffer.0");
-  EXPECT_EQ(shm_slot_path(9), "/tmp/dmc_tracking_buffer.9");
-  EXPECT_EQ(shm_slot_path(10), "/tmp/dmc_tracking_buffer.A");
-  EXPECT_EQ(shm_slot_path(35), "/tmp/dmc_tracking_buffer.Z");
-  EXPECT_EQ(shm_slot_path(36), "/tmp/dmc_tracking_buffer.a");
-  EXPECT_EQ(shm_slot_path(61), "/tmp/dmc_tracking_buffer.z");
+  EXPECT_EQ(slot_path(0), "/tmp/dmc_tracking_buffer.0");
+  EXPECT_EQ(slot_path(9), "/tmp/dmc_tracking_buffer.9");
+  EXPECT_EQ(slot_path(10), "/tmp/dmc_tracking_buffer.A");
+  EXPECT_EQ(slot_path(35), "/tmp/dmc_tracking_buffer.Z");
+  EXPECT_EQ(slot_path(36), "/tmp/dmc_tracking_buffer.a");
+  EXPECT_EQ(slot_path(61), "/tmp/dmc_tracking_buffer.z");
 }
 
 }  // namespace

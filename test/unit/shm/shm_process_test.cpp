@@ -13,13 +13,19 @@
 #include <unistd.h>
 
 #include "free_slot.h"
-#include "shm/shm_segment.h"
+#include "shm/segment.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::shm {
 namespace {
+
+using endpoints::open_sink;
+using endpoints::open_source;
+using transport::Event;
+using transport::Reception;
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
@@ -111,7 +117,7 @@ TEST(ShmProcesses, a_reader_in_another_process_gets_what_is_written) {
   test::FreeSlot slot;
   Child reader([&] { return read_to(url_of(slot), 500); });
   const auto sink = open_sink(url_of(slot));
-  ASSERT_TRUE(wait_for([&] { return ShmSegment::attach(slot.number())->connected() == 3; })) << "reader attached";
+  ASSERT_TRUE(wait_for([&] { return Segment::attach(slot.number())->connected() == 3; })) << "reader attached";
   for (std::uint64_t i = 1; i <= 500; ++i) ASSERT_TRUE(sink->write(params(i)));
   EXPECT_EQ(reader.wait(), 0);
 }
@@ -122,12 +128,12 @@ TEST(ShmProcesses, eight_readers_of_one_fast_writer_never_see_a_torn_record) {
   constexpr int enough = 200;
   constexpr std::uint64_t least_writes = 200'000;
   test::FreeSlot slot;
-  auto writer = ShmSegment::attach_or_create(slot.number(), *shm_layout_of_size(528), 0666);
+  auto writer = Segment::attach_or_create(slot.number(), *layout_of_size(528), 0666);
   ASSERT_TRUE(writer);
   const auto look = [&] {
-    const auto segment = ShmSegment::attach(slot.number());
+    const auto segment = Segment::attach(slot.number());
     if (!segment) return 5;
-    ShmImage image;
+    RecordImage image;
     const auto end = Clock::now() + deadline;
     int copies = 0;
     for (std::uint16_t seen = 0; copies < enough;) {
@@ -171,7 +177,7 @@ TEST(ShmProcesses, writers_that_are_killed_leave_whole_records_and_a_usable_slot
     const auto end = Clock::now() + deadline;
     while (received < enough && Clock::now() < end) {
       const Event event = source->receive(into, 10ms);
-      ASSERT_NE(event, Event::malformed) << wire::describe(into.fault);
+      ASSERT_NE(event, Event::malformed) << describe(into.fault);
       if (event != Event::sample) continue;
       ASSERT_TRUE(is_whole(std::get<wire::CameraParams>(into.sample.record)));
       ++received;
@@ -179,7 +185,7 @@ TEST(ShmProcesses, writers_that_are_killed_leave_whole_records_and_a_usable_slot
     ASSERT_EQ(received, enough) << "round " << round << ": " << source->statistics().waiting_for;
     writer.end();
   }
-  EXPECT_GE(ShmSegment::attach(slot.number())->connected(), 20) << "the dead still count there";
+  EXPECT_GE(Segment::attach(slot.number())->connected(), 20) << "the dead still count there";
 }
 
 TEST(ShmProcesses, readers_that_are_killed_leave_the_writer_the_last_one) {
@@ -220,7 +226,7 @@ TEST(ShmProcesses, a_segment_whose_maker_died_half_way_is_taken_over) {
   ASSERT_GE(id, 0);
   const auto sink = open_sink(url_of(slot));
   EXPECT_EQ(slot.segment(), id);
-  const auto reader = ShmSegment::attach(slot.number());
+  const auto reader = Segment::attach(slot.number());
   ASSERT_TRUE(reader) << describe(reader.error());
   EXPECT_EQ(reader->layout().size, 544U);
   EXPECT_EQ(reader->connected(), 2);
@@ -230,7 +236,7 @@ TEST(ShmProcesses, opening_and_closing_against_each_other_loses_nothing) {
   test::FreeSlot slot;
   const auto open_and_close = [&] {
     for (int i = 0; i < 300; ++i) {
-      auto segment = ShmSegment::attach_or_create(slot.number(), *shm_layout_of_size(528), 0666);
+      auto segment = Segment::attach_or_create(slot.number(), *layout_of_size(528), 0666);
       if (!segment) return 10 + static_cast<int>(segment.error().problem);
       if (!segment->write(params(1))) return 1;
     }
@@ -246,7 +252,7 @@ TEST(ShmProcesses, opening_and_closing_against_each_other_loses_nothing) {
 
 TEST(ShmProcesses, a_forked_copy_of_a_handle_does_not_count_down) {
   test::FreeSlot slot;
-  auto segment = ShmSegment::attach_or_create(slot.number(), *shm_layout_of_size(528), 0666);
+  auto segment = Segment::attach_or_create(slot.number(), *layout_of_size(528), 0666);
   ASSERT_TRUE(segment);
   Child copy([&] {
     segment->close();

@@ -9,13 +9,26 @@
 #include <sys/stat.h>
 
 #include "free_slot.h"
-#include "shm/shm_segment.h"
+#include "shm/scheme.h"
+#include "shm/segment.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::shm {
 namespace {
+
+using endpoints::open_sink;
+using endpoints::open_source;
+using transport::Event;
+using transport::Reception;
+using transport::Sample;
+using transport::SenderKind;
+using transport::SinkReason;
+using transport::Source;
+using transport::SourceState;
+using transport::TransportError;
 
 using namespace std::chrono_literals;
 
@@ -42,7 +55,7 @@ wire::CameraConstants constants(int width = 720) {
 class Shm : public ::testing::Test {
  protected:
   std::string url(const std::string& options = "") const { return "shm:" + std::to_string(slot.number()) + options; }
-  const ShmLayout& document() const { return *shm_layout_of_size(528); }
+  const SegmentLayout& document() const { return *layout_of_size(528); }
 
   /// Receives for as long as the source has something or `done` is not true.
   ::testing::AssertionResult receive_until(Source& source, const std::function<bool(const Sample&)>& done) {
@@ -89,8 +102,7 @@ TEST_F(Shm, what_is_written_is_read) {
   EXPECT_GE(into.sample.arrival, std::chrono::nanoseconds(before).count());
   EXPECT_EQ(into.sample.sender.kind, SenderKind::shm);
   EXPECT_EQ(into.sample.sender.number, static_cast<std::uint32_t>(slot.number()));
-  EXPECT_EQ(into.sample.form.encoding, wire::Encoding::binary);
-  EXPECT_EQ(into.sample.form.layout, shm_layout_of_size(544)->record);
+  EXPECT_STREQ(into.sample.origin, "binary identified_lp64");
   EXPECT_EQ(source->receive(into, 0s), Event::idle);
   EXPECT_EQ(source->statistics().records, 2U);
   EXPECT_EQ(source->statistics().state, SourceState::receiving);
@@ -167,10 +179,10 @@ TEST_F(Shm, the_last_one_removes_segment_and_file) {
 }
 
 TEST_F(Shm, connected_counts_handles_and_attachments_are_the_truth) {
-  auto first = ShmSegment::attach_or_create(slot.number(), document(), 0666);
+  auto first = Segment::attach_or_create(slot.number(), document(), 0666);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->connected(), 1);
-  auto second = ShmSegment::attach(slot.number());
+  auto second = Segment::attach(slot.number());
   ASSERT_TRUE(second);
   EXPECT_EQ(first->connected(), 2);
   second->close();
@@ -205,22 +217,25 @@ TEST_F(Shm, a_segment_removed_and_made_anew_is_followed) {
   ASSERT_TRUE(second->write(constants(1920)));
   ASSERT_TRUE(receive_until(*source, [](const Sample& s) { return s.record.index() == 1; }));
   EXPECT_EQ(std::get<wire::CameraConstants>(into.sample.record).image_width, 1920);
-  EXPECT_EQ(into.sample.form.layout, shm_layout_of_size(524)->record);
+  EXPECT_STREQ(into.sample.origin, "binary identified_i386");
   ASSERT_TRUE(second->write(params(2)));
   EXPECT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 2); }));
   EXPECT_EQ(source->statistics().reattached, 1U);
 }
 
 TEST_F(Shm, a_slot_that_means_another_segment_is_followed_though_the_old_one_lives) {
+  // The file alone goes: its old segment stays, out of everybody's reach. For as long as it lives, a spare keeps its
+  // inode, and so its key, from any other slot.
+  struct Spare {
+    const std::string path;
+    ~Spare() { ::unlink(path.c_str()); }
+  } const spare{slot.path() + ".spare"};
   const auto sink = open_sink(url());
   const auto source = open_source(url());
   ASSERT_TRUE(sink->write(params(1)));
   ASSERT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 1); }));
-  // The file alone goes: its old segment stays, out of everybody's reach. A spare keeps the inode from coming again.
-  const std::string spare = slot.path() + ".spare";
-  ASSERT_EQ(::rename(slot.path().c_str(), spare.c_str()), 0);
+  ASSERT_EQ(::rename(slot.path().c_str(), spare.path.c_str()), 0);
   const auto second = open_sink(url());
-  ::unlink(spare.c_str());
   ASSERT_TRUE(idle_until(*source, [&] { return source->statistics().reattached == 1; }));
   ASSERT_TRUE(second->write(params(2)));
   EXPECT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 2); }));
@@ -231,9 +246,9 @@ TEST_F(Shm, a_sink_makes_a_removed_segment_anew_with_its_constants) {
   ASSERT_TRUE(sink->write(constants()));
   slot.remove();
   ASSERT_TRUE(sink->write(params(9)));
-  const auto reader = ShmSegment::attach(slot.number());
+  const auto reader = Segment::attach(slot.number());
   ASSERT_TRUE(reader);
-  ShmImage image;
+  RecordImage image;
   ASSERT_TRUE(reader->copy_params(image));
   EXPECT_EQ(*wire::params_from_image(image.view(), reader->layout().record), params(9));
   ASSERT_TRUE(reader->copy_constants(image));
@@ -254,12 +269,12 @@ TEST_F(Shm, recreate_makes_a_fresh_segment_when_all_others_have_left) {
   EXPECT_NE(second, first);
   ASSERT_TRUE(sink->write(params(3)));
   EXPECT_EQ(slot.segment(), second) << "once is enough";
-  const auto reader = ShmSegment::attach(slot.number());
+  const auto reader = Segment::attach(slot.number());
   ASSERT_TRUE(reader);
   EXPECT_EQ(reader->connected(), 2);
   EXPECT_EQ(reader->params_counter(), 3);
   EXPECT_EQ(reader->constants_counter(), 1);
-  ShmImage image;
+  RecordImage image;
   ASSERT_TRUE(reader->copy_constants(image));
   EXPECT_EQ(*wire::constants_from_image(image.view(), reader->layout().record), constants());
 }
@@ -270,7 +285,7 @@ TEST_F(Shm, an_i386_segment_refuses_a_counter_that_it_cannot_hold) {
   const auto result = sink->write(params(0x100000000));
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().reason, SinkReason::not_encodable);
-  EXPECT_EQ(result.error().fault.reason, wire::Reason::out_of_range);
+  EXPECT_STREQ(result.error().fault.name(), wire::name(wire::Reason::out_of_range));
   EXPECT_EQ(sink->statistics().errors, 1U);
   EXPECT_EQ(sink->statistics().params, 1U);
 }
@@ -285,7 +300,7 @@ TEST_F(Shm, an_unsound_record_is_malformed_and_costs_itself_alone) {
   std::memcpy(memory + document().params_counter, &counter, sizeof counter);
   ::shmdt(memory);
   ASSERT_EQ(source->receive(into, deadline), Event::malformed);
-  EXPECT_EQ(into.fault.reason, wire::Reason::not_finite);
+  EXPECT_STREQ(into.fault.name(), wire::name(wire::Reason::not_finite));
   EXPECT_EQ(into.sample.sender.kind, SenderKind::shm);
   ASSERT_TRUE(sink->write(params(2)));
   ASSERT_EQ(source->receive(into, deadline), Event::sample);
@@ -311,16 +326,16 @@ TEST_F(Shm, a_closed_sink_says_so) {
   EXPECT_FALSE(slot.has_file());
 }
 
-TEST(ShmEndpoints, slots_that_do_not_exist_are_refused) {
+TEST(ShmSettings, slots_that_do_not_exist_are_refused) {
   for (const int number : {-1, 62, 1000}) {
-    ShmEndpoint endpoint;
-    endpoint.slot = number;
-    EXPECT_THROW(open_source(endpoint), TransportError) << number;
-    EXPECT_THROW(open_sink(endpoint), TransportError) << number;
+    Settings settings;
+    settings.slot = number;
+    EXPECT_THROW(shm::open_source(settings), TransportError) << number;
+    EXPECT_THROW(shm::open_sink(settings), TransportError) << number;
   }
 }
 
-TEST(ShmEndpoints, layouts_without_a_segment_are_refused) {
+TEST(ShmSettings, layouts_without_a_segment_are_refused) {
   EXPECT_THROW(open_sink("shm:3?layout=document_llp64"), TransportError);
   EXPECT_THROW(open_sink("shm:3?layout=identified_lp64_be"), TransportError);
 }

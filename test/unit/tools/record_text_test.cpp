@@ -114,14 +114,5 @@ TEST(PlainLine, TellsUnitsOfTheFormat) {
   EXPECT_THAT(plain_line(sample_of(params)), HasSubstr("image distance 42 mm center 0.25 0 mm"));
 }
 
-TEST(Times, AreExactOnBothSidesOf1970) {
-  EXPECT_EQ(base::seconds_text(0), "0.000000000");
-  EXPECT_EQ(base::seconds_text(-1), "-0.000000001");
-  EXPECT_EQ(base::seconds_text(-1'500'000'000), "-1.500000000");
-  EXPECT_EQ(base::seconds_text(std::numeric_limits<std::int64_t>::min()), "-9223372036.854775808");
-  EXPECT_EQ(base::iso_time(0), "1970-01-01T00:00:00.000000000Z");
-  EXPECT_EQ(base::iso_time(-1), "1969-12-31T23:59:59.999999999Z");
-}
-
 }  // namespace
 }  // namespace trk_bridge::tools

@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "file/take_file.h"
+#include "file/take.h"
 #include "gated_sink.h"
 #include "memory_feed.h"
 #include "temporary_directory.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "trk_bridge/camera/camera.h"
-#include "file/take_file.h"
+#include "file/take.h"
 #include "vectors.h"
 
 namespace trk_bridge {

@@ -8,7 +8,7 @@
 
 #include "program.h"
 #include "temporary_directory.h"
-#include "file/take_file.h"
+#include "file/take.h"
 #include "udp.h"
 #include "vectors.h"
 

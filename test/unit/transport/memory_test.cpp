@@ -68,7 +68,8 @@ TEST(Memory, StopWakesAndIsForGood) {
 }
 
 TEST(Memory, AClosedSinkSaysSo) {
-  const auto sink = open_sink("memory:closed");
+  const auto queue = std::make_shared<test::MemoryQueue>();
+  const auto sink = std::make_unique<test::MemorySink>(queue);
   ASSERT_TRUE(sink->close());
   EXPECT_EQ(sink->write(test::params(1)).error().reason, SinkReason::closed);
   EXPECT_EQ(sink->write(test::constants()).error().reason, SinkReason::closed);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "trk_bridge/base/sequence.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
@@ -28,6 +29,11 @@ std::atomic<std::uint64_t> allocations{0};
 namespace trk_bridge::trk {
 namespace {
 
+using endpoints::open_sink;
+using endpoints::open_source;
+using transport::Event;
+using transport::Reception;
+
 void expect_no_allocation(const std::string& options) {
   const auto source = open_source("udp://127.0.0.1:0");
   const auto sink =
@@ -35,7 +41,7 @@ void expect_no_allocation(const std::string& options) {
   ASSERT_TRUE(sink->write(test::constants(720, 1)));
   const test::PlainSocket stranger;
   const std::uint16_t port = test::port_of(*source);
-  Sequence sequence;
+  base::Sequence sequence;
   Reception reception;
   std::uint64_t samples = 0, malformed = 0;
   auto params = test::params(0, 1);

@@ -1,11 +1,19 @@
-#include "trk/sender_layouts.h"
+#include "trk/datagram_decoder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "udp.h"
 
 namespace trk_bridge::trk {
 namespace {
+
+using testing::StartsWith;
+using transport::Fault;
+using transport::Sample;
+using transport::Sender;
+using transport::SenderKind;
+using Next = transport::Decoder::Next;
 
 Sender sender(std::uint32_t port) {
   Sender s;
@@ -18,54 +26,97 @@ Sender sender(std::uint32_t port) {
 constexpr wire::WireForm document{wire::Encoding::binary, {wire::Generation::document}};
 constexpr wire::WireForm identified{wire::Encoding::binary, {wire::Generation::identified}};
 
-/// Parameters that read alike in both generations.
+/// A matrix that both generations read well: the id of one is the format of the other.
 std::string ambiguous() {
   wire::CameraParams p;
   p.matrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 2, 1, 1};
+  p.id = 2;
   p.counter = 5;
-  return test::datagram(p, document);
+  return test::datagram(p, identified);
 }
 
-wire::Generation generation_of(SenderLayouts& layouts, const Sender& of) {
-  const auto decoded = layouts.decode(ambiguous(), of);
-  if (!decoded) throw std::runtime_error(wire::describe(decoded.error()));
-  return decoded->form.layout.generation;
+/// The first of what the datagram gives; all of what it may give is one.
+Next first_of(DatagramDecoder& decoder, const std::string& datagram, const Sender& from, Sample& sample, Fault& fault) {
+  decoder.begin(datagram, from);
+  const Next next = decoder.next(sample, fault);
+  Sample unused;
+  Fault no_fault;
+  EXPECT_EQ(decoder.next(unused, no_fault), Next::none);
+  return next;
 }
 
-TEST(SenderLayouts, RemembersWhatASenderTold) {
-  SenderLayouts layouts({});
-  ASSERT_TRUE(layouts.decode(test::datagram(test::constants(), document), sender(1)));
-  ASSERT_TRUE(layouts.decode(test::datagram(test::constants(), identified), sender(2)));
-  EXPECT_EQ(generation_of(layouts, sender(1)), wire::Generation::document);
-  EXPECT_EQ(generation_of(layouts, sender(2)), wire::Generation::identified);
-  EXPECT_EQ(generation_of(layouts, sender(1)), wire::Generation::document);
+/// How the datagram was encoded; its fault when it is not good.
+std::string origin_of(DatagramDecoder& decoder, const std::string& datagram, const Sender& from) {
+  Sample sample;
+  Fault fault;
+  return first_of(decoder, datagram, from, sample, fault) == Next::sample ? sample.origin : fault.name();
 }
 
-TEST(SenderLayouts, WhatWasSaidHoldsForAll) {
-  SenderLayouts layouts({wire::Generation::document, {}, {}});
-  EXPECT_EQ(generation_of(layouts, sender(1)), wire::Generation::document);
-  EXPECT_EQ(generation_of(layouts, sender(2)), wire::Generation::document);
+TEST(DatagramDecoder, OneSampleADatagram) {
+  DatagramDecoder decoder({});
+  Sample sample;
+  Fault fault;
+  EXPECT_EQ(decoder.next(sample, fault), Next::none) << "nothing was begun";
+  sample.has_counter = sample.has_lens = false;
+  sample.sample_time = 5;
+  sample.time_code = base::TimeCode{};
+  sample.arrival = 7;
+  ASSERT_EQ(first_of(decoder, test::datagram(test::params(12, 3)), sender(1), sample, fault), Next::sample);
+  EXPECT_EQ(std::get<wire::CameraParams>(sample.record), test::params(12, 3));
+  EXPECT_STREQ(sample.origin, "ASCII");
+  EXPECT_TRUE(sample.has_counter && sample.has_lens);
+  EXPECT_FALSE(sample.sample_time || sample.time_code) << "trk has no time";
+  EXPECT_EQ(sample.arrival, 7) << "it is the socket's to know";
 }
 
-TEST(SenderLayouts, TheOneSilentLongestGivesWay) {
-  SenderLayouts layouts({});
-  for (std::uint32_t port = 0; port < SenderLayouts::capacity; ++port) {
-    ASSERT_TRUE(layouts.decode(test::datagram(test::constants(), document), sender(port)));
+TEST(DatagramDecoder, AFaultSaysWhy) {
+  DatagramDecoder decoder({});
+  Sample sample;
+  Fault fault;
+  ASSERT_EQ(first_of(decoder, "invalid data", sender(1), sample, fault), Next::fault);
+  EXPECT_STREQ(fault.name(), wire::name(wire::Reason::bad_magic));
+  EXPECT_EQ(origin_of(decoder, test::datagram(test::params(1)), sender(1)), "ASCII") << "the next datagram is good";
+}
+
+TEST(DatagramDecoder, RemembersWhatASendersRecordsShow) {
+  DatagramDecoder decoder({});
+  EXPECT_EQ(origin_of(decoder, test::datagram(test::constants(), document), sender(1)), "binary document_lp64");
+  EXPECT_EQ(origin_of(decoder, test::datagram(test::constants(), identified), sender(2)), "binary identified_lp64");
+  EXPECT_EQ(origin_of(decoder, ambiguous(), sender(1)), "binary document_lp64");
+  EXPECT_EQ(origin_of(decoder, ambiguous(), sender(2)), "binary identified_lp64");
+  EXPECT_EQ(origin_of(decoder, ambiguous(), sender(1)), "binary document_lp64");
+}
+
+TEST(DatagramDecoder, AGivenLayoutHoldsForAll) {
+  DatagramDecoder decoder({wire::Generation::document, {}, {}});
+  EXPECT_THAT(origin_of(decoder, ambiguous(), sender(1)), StartsWith("binary document_lp64"));
+  EXPECT_THAT(origin_of(decoder, ambiguous(), sender(2)), StartsWith("binary document_lp64"));
+}
+
+TEST(DatagramDecoder, AGuessedLayoutIsMarked) {
+  DatagramDecoder decoder({});
+  EXPECT_EQ(origin_of(decoder, ambiguous(), sender(1)), "binary identified_lp64, layout guessed");
+}
+
+TEST(DatagramDecoder, TheOneSilentLongestGivesWay) {
+  DatagramDecoder decoder({});
+  for (std::uint32_t port = 0; port < DatagramDecoder::capacity; ++port) {
+    ASSERT_EQ(origin_of(decoder, test::datagram(test::constants(), document), sender(port)), "binary document_lp64");
   }
-  EXPECT_EQ(generation_of(layouts, sender(0)), wire::Generation::document);
-  ASSERT_TRUE(layouts.decode(test::datagram(test::constants(), document), sender(1000)));
-  EXPECT_EQ(generation_of(layouts, sender(0)), wire::Generation::document) << "it was heard after 1";
-  EXPECT_EQ(generation_of(layouts, sender(1000)), wire::Generation::document);
-  EXPECT_EQ(generation_of(layouts, sender(1)), wire::Generation::identified) << "forgotten, so guessed";
+  EXPECT_EQ(origin_of(decoder, ambiguous(), sender(0)), "binary document_lp64");
+  ASSERT_EQ(origin_of(decoder, test::datagram(test::constants(), document), sender(1000)), "binary document_lp64");
+  EXPECT_EQ(origin_of(decoder, ambiguous(), sender(0)), "binary document_lp64") << "it was heard after 1";
+  EXPECT_EQ(origin_of(decoder, ambiguous(), sender(1000)), "binary document_lp64");
+  EXPECT_EQ(origin_of(decoder, ambiguous(), sender(1)), "binary identified_lp64, layout guessed") << "forgotten";
 }
 
-TEST(SenderLayouts, RubbishPushesNobodyOut) {
-  SenderLayouts layouts({});
-  ASSERT_TRUE(layouts.decode(test::datagram(test::constants(), document), sender(0)));
-  for (std::uint32_t port = 1; port <= 10 * SenderLayouts::capacity; ++port) {
-    EXPECT_FALSE(layouts.decode("rubbish", sender(port)));
+TEST(DatagramDecoder, InvalidDataPushesNobodyOut) {
+  DatagramDecoder decoder({});
+  ASSERT_EQ(origin_of(decoder, test::datagram(test::constants(), document), sender(0)), "binary document_lp64");
+  for (std::uint32_t port = 1; port <= 10 * DatagramDecoder::capacity; ++port) {
+    EXPECT_EQ(origin_of(decoder, "invalid data", sender(port)), wire::name(wire::Reason::bad_magic));
   }
-  EXPECT_EQ(generation_of(layouts, sender(0)), wire::Generation::document);
+  EXPECT_EQ(origin_of(decoder, ambiguous(), sender(0)), "binary document_lp64");
 }
 
 }  // namespace

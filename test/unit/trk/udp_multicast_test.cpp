@@ -4,6 +4,7 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
@@ -11,8 +12,15 @@
 namespace trk_bridge::trk {
 namespace {
 
+using endpoints::open_sink;
+using endpoints::open_source;
 using test::port_of;
 using testing::HasSubstr;
+using transport::Event;
+using transport::Reception;
+using transport::Source;
+using transport::SourceState;
+using transport::TransportError;
 
 std::string place(const std::string& group, const Source& of_port, const std::string& options) {
   return "udp://" + group + ":" + std::to_string(port_of(of_port)) + options;

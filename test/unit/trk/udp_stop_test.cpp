@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
@@ -18,8 +19,14 @@
 namespace trk_bridge::trk {
 namespace {
 
+using endpoints::open_sink;
+using endpoints::open_source;
 using test::PlainSocket;
 using test::port_of;
+using transport::Event;
+using transport::Reception;
+using transport::Source;
+using transport::TransportError;
 
 /// A thread that waits in receive() without end, seen to sleep in the kernel.
 class Waiting {

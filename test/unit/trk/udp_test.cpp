@@ -7,17 +7,25 @@
 #include <thread>
 #include <vector>
 
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
 
 namespace trk_bridge::trk {
 namespace {
 
+using endpoints::open_source;
 using test::next;
 using test::next_counter;
 using test::PlainSocket;
 using test::port_of;
 using testing::HasSubstr;
+using transport::Event;
+using transport::Reception;
+using transport::Source;
+using transport::SourceState;
+using transport::SourceStatistics;
+using transport::TransportError;
 
 std::int64_t realtime_now() {
   timespec now{};
@@ -227,7 +235,7 @@ TEST(UdpSource, ALongerDatagramThanAnyIsToldAsSuch) {
   EXPECT_EQ(next_counter(*source), 9u) << "4096 bytes are allowed";
   Reception reception;
   ASSERT_EQ(next(*source, reception), Event::malformed);
-  EXPECT_EQ(reception.fault.reason, wire::Reason::too_long);
+  EXPECT_STREQ(reception.fault.name(), wire::name(wire::Reason::too_long));
   EXPECT_GT(reception.sample.arrival, 0);
 }
 
@@ -267,11 +275,10 @@ TEST(UdpSource, EachSendersLayoutIsItsOwn) {
   send(new_tracker, test::datagram(p, identified));
   send(old_tracker, test::datagram(p, document));
   Reception reception;
-  for (const auto generation : {wire::Generation::document, wire::Generation::identified, wire::Generation::document,
-                                wire::Generation::identified, wire::Generation::document}) {
+  for (const char* origin : {"binary document_lp64", "binary identified_lp64", "binary document_lp64",
+                             "binary identified_lp64", "binary document_lp64"}) {
     ASSERT_EQ(next(*source, reception), Event::sample);
-    EXPECT_EQ(reception.sample.form.encoding, wire::Encoding::binary);
-    EXPECT_EQ(reception.sample.form.layout.generation, generation);
+    EXPECT_STREQ(reception.sample.origin, origin);
   }
 }
 

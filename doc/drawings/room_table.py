@@ -1,0 +1,62 @@
+"""The rooms of the code and what each may use: drawn by rooms.py, held against the code by test/doc/rooms_test.py."""
+
+import typing
+
+
+class Room(typing.NamedTuple):
+    """A folder of src/ and, where it has public headers, of include/trk_bridge/."""
+    what: str
+    uses: tuple = ()
+    # Knows ROS; the others build without it.
+    ros: bool = False
+    # What it uses only in a build with ROS.
+    uses_with_ros: tuple = ()
+
+
+ROOMS = {
+    "base": Room("counters, times, snapshots"),
+    "wire": Room("records and their bytes"),
+    "camera": Room("pose, lens, formats", ("wire",)),
+    "transport": Room("sources and sinks, sockets", ("base", "wire")),
+    "trk": Room("trk over UDP", ("transport", "wire")),
+    "shm": Room("trk in shared memory", ("base", "transport", "wire")),
+    "file": Room("trk in files", ("base", "transport", "wire")),
+    "endpoints": Room("URLs, receivers by name", ("base", "file", "shm", "transport", "trk", "wire")),
+    "c_api": Room("the document's functions", ("file", "shm", "transport", "trk", "wire")),
+    "bridge": Room("findings and statuses"),
+    "ros": Room("messages, frames, stamps", ("base", "camera", "endpoints", "transport", "wire"), ros=True),
+    "nodes": Room("nodes and nodelets", ("base", "ros", "transport"), ros=True),
+    "demo": Room("crane and test card", ("camera", "nodes", "ros", "wire"), ros=True),
+    "rviz": Room("the display", ("camera", "ros"), ros=True),
+    "cli": Room("what programs share", ("base", "endpoints", "transport", "wire")),
+    "monitor": Room("trk monitor", ("base", "camera", "cli", "transport", "wire")),
+    "bag": Room("trk bag", ("base", "camera", "cli", "file", "ros", "transport", "wire"), ros=True),
+    "tools": Room("trk", ("base", "camera", "cli", "endpoints", "monitor", "transport", "wire"), uses_with_ros=("bag",)),
+    "programs": Room("six test programs", ("c_api", "camera", "cli", "wire")),
+}
+
+
+def used_by(room):
+    return ROOMS[room].uses + ROOMS[room].uses_with_ros
+
+
+def reachable_from(room):
+    """Every room that it uses, through others as well; itself only where there is a cycle."""
+    seen, ahead = set(), list(used_by(room))
+    while ahead:
+        used = ahead.pop()
+        if used not in seen:
+            seen.add(used)
+            ahead.extend(used_by(used))
+    return seen
+
+
+def floor_of(room):
+    """0 for a room that uses none, else one above the highest that it uses."""
+    return 1 + max((floor_of(used) for used in used_by(room)), default=-1)
+
+
+def arrows():
+    """(user, used) without those that follow from two others."""
+    return [(room, used) for room in ROOMS for used in used_by(room)
+            if not any(used in reachable_from(other) for other in used_by(room))]

@@ -1,0 +1,36 @@
+// Angles and roots.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace trk_bridge::camera {
+
+inline constexpr double degrees_per_radian = 180.0 / M_PI;
+
+/// A function's value and slope at one place.
+struct ValueAndSlope {
+  double value = 0, slope = 0;
+};
+
+/// Where an increasing `function` (double to ValueAndSlope) is 0, to the last digits. `low` and `high` enclose the
+/// place, `start` lies between. Newton's steps where they stay inside, halving where they do not.
+template <typename Function>
+double increasing_root(const Function& function, double low, double high, double start) noexcept {
+  constexpr int more_than_halving_ever_takes = 2200;
+  double x = start;
+  for (int i = 0; i < more_than_halving_ever_takes; ++i) {
+    const ValueAndSlope at = function(x);
+    if (at.value == 0) return x;
+    (at.value > 0 ? high : low) = x;
+    const double step = at.value / at.slope;
+    double next = x - step;
+    if (std::abs(step) <= 2 * std::numeric_limits<double>::epsilon() * std::abs(x)) return next;
+    if (!(next > low && next < high)) next = low + (high - low) / 2;
+    if (next <= low || next >= high) return next;
+    x = next;
+  }
+  return x;
+}
+
+}  // namespace trk_bridge::camera

@@ -1,0 +1,404 @@
+#include "segment.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <utility>
+
+#include <sys/shm.h>
+#include <unistd.h>
+
+#include "slot.h"
+
+namespace trk_bridge::shm {
+namespace {
+
+constexpr wire::ByteOrder native_order =
+    __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? wire::ByteOrder::little : wire::ByteOrder::big;
+
+constexpr wire::Layout record(wire::Generation generation, wire::Abi abi) { return {generation, abi, native_order}; }
+
+constexpr std::array<SegmentLayout, 4> layouts{{
+    {544, record(wire::Generation::identified, wire::Abi::lp64), 8, 8, 12, 14, 200, 64, {16, 216}, {416, 480}},
+    {528, record(wire::Generation::document, wire::Abi::lp64), 8, 8, 12, 14, 200, 56, {16, 216}, {416, 472}},
+    {524, record(wire::Generation::identified, wire::Abi::i386), 4, 4, 8, 10, 196, 60, {12, 208}, {404, 464}},
+    {508, record(wire::Generation::document, wire::Abi::i386), 4, 4, 8, 10, 192, 56, {12, 204}, {396, 452}},
+}};
+
+// The header ends where the first record begins, records follow each other without a gap, and the copies go word by
+// word.
+constexpr bool is_tight(const SegmentLayout& l) {
+  return l.connected == l.magic_size && l.params_counter == l.connected + 4 &&
+         l.constants_counter == l.params_counter + 2 && l.params[0] == l.constants_counter + 2 &&
+         l.params[1] == l.params[0] + l.params_size && l.constants[0] == l.params[1] + l.params_size &&
+         l.constants[1] == l.constants[0] + l.constants_size && l.size == l.constants[1] + l.constants_size &&
+         l.params_size % 4 == 0 && l.constants_size % 4 == 0 && l.params[0] % 4 == 0 &&
+         l.params_size <= sizeof(RecordImage::bytes);
+}
+static_assert(is_tight(layouts[0]) && is_tight(layouts[1]) && is_tight(layouts[2]) && is_tight(layouts[3]));
+
+// A copy takes well under a microsecond: a writer that disturbs this many in a row is not a tracker.
+constexpr int copy_attempts = 64;
+// Attaching and making interleave with other programs that do the same.
+constexpr int open_attempts = 1000;
+constexpr int unfinished_waits = 200;
+constexpr timespec unfinished_wait{0, 1'000'000};
+
+void* const no_memory = reinterpret_cast<void*>(-1);
+
+// Shared with other processes, so every access is atomic: the builtins work on memory that is not std::atomic.
+template <typename T>
+T* at(char* base, std::size_t offset) noexcept {
+  return reinterpret_cast<T*>(base + offset);
+}
+
+std::uint64_t magic_in(char* base, const SegmentLayout& layout) noexcept {
+  if (layout.magic_size == 8) return __atomic_load_n(at<std::uint64_t>(base, 0), __ATOMIC_ACQUIRE);
+  return __atomic_load_n(at<std::uint32_t>(base, 0), __ATOMIC_ACQUIRE);
+}
+
+void copy_words_out(char* from, std::size_t size, char* to) noexcept {
+  for (std::size_t i = 0; i < size; i += 4) {
+    const std::uint32_t word = __atomic_load_n(at<std::uint32_t>(from, i), __ATOMIC_RELAXED);
+    std::memcpy(to + i, &word, sizeof word);
+  }
+}
+
+void copy_words_in(const char* from, std::size_t size, char* to) noexcept {
+  for (std::size_t i = 0; i < size; i += 4) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, from + i, sizeof word);
+    __atomic_store_n(at<std::uint32_t>(to, i), word, __ATOMIC_RELAXED);
+  }
+}
+
+bool is_all_zero(char* base, std::size_t size) noexcept {
+  std::array<char, 1024> bytes{};
+  copy_words_out(base, size, bytes.data());
+  return std::all_of(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size), [](char c) { return c == 0; });
+}
+
+bool may_remove(const shmid_ds& state) noexcept {
+  const uid_t me = ::geteuid();
+  return me == 0 || me == state.shm_perm.uid || me == state.shm_perm.cuid;
+}
+
+bool means(int slot, int id) noexcept {
+  const auto found = find_segment(slot);
+  return found && found->id == id;
+}
+
+// The file first: whoever creates the slot again in between then takes a new file, with another key.
+void remove_if_last(int slot, int id) noexcept {
+  shmid_ds state{};
+  if (::shmctl(id, IPC_STAT, &state) != 0 || state.shm_nattch != 0 || !may_remove(state)) return;
+  if (means(slot, id)) ::unlink(SlotPath(slot).c_str());
+  ::shmctl(id, IPC_RMID, nullptr);
+}
+
+struct Mapping {
+  char* base = nullptr;
+  bool writable = true;
+};
+
+tl::expected<Mapping, SlotFault> map(int slot, int id) noexcept {
+  Mapping mapping;
+  void* base = ::shmat(id, nullptr, 0);
+  if (base == no_memory && errno == EACCES) {
+    mapping.writable = false;
+    base = ::shmat(id, nullptr, SHM_RDONLY);
+  }
+  if (base == no_memory) {
+    const bool gone = errno == EINVAL || errno == EIDRM;
+    return tl::unexpected(gone ? slot_fault(SlotProblem::no_segment, slot) : system_fault(slot));
+  }
+  mapping.base = static_cast<char*>(base);
+  return mapping;
+}
+
+tl::expected<void, SlotFault> check_magic(int slot, char* base, const SegmentLayout& layout) noexcept {
+  const std::uint64_t magic = magic_in(base, layout);
+  if (magic == segment_magic) return {};
+  const bool unfinished = magic == 0 && is_all_zero(base + layout.magic_size, layout.size - layout.magic_size);
+  SlotFault fault = slot_fault(unfinished ? SlotProblem::unfinished : SlotProblem::foreign, slot);
+  fault.size = layout.size;
+  fault.magic = magic;
+  return tl::unexpected(fault);
+}
+
+bool is_dead(pid_t process) noexcept { return process > 0 && ::kill(process, 0) != 0 && errno == ESRCH; }
+
+}  // namespace
+
+const std::array<SegmentLayout, 4>& segment_layouts() noexcept { return layouts; }
+
+const SegmentLayout* layout_of_size(std::size_t size) noexcept {
+  const auto found =
+      std::find_if(layouts.begin(), layouts.end(), [&](const SegmentLayout& l) { return l.size == size; });
+  return found == layouts.end() ? nullptr : &*found;
+}
+
+const SegmentLayout* layout_of(wire::Layout record) noexcept {
+  const auto found =
+      std::find_if(layouts.begin(), layouts.end(), [&](const SegmentLayout& l) { return l.record == record; });
+  return found == layouts.end() ? nullptr : &*found;
+}
+
+Segment::Segment(int slot, int id, char* base, const SegmentLayout& layout, bool writable) noexcept
+    : slot_(slot), id_(id), base_(base), layout_(&layout), writable_(writable), owner_(::getpid()) {}
+
+Segment::Segment(Segment&& other) noexcept
+    : slot_(other.slot_),
+      id_(other.id_),
+      base_(std::exchange(other.base_, nullptr)),
+      layout_(other.layout_),
+      writable_(other.writable_),
+      counted_(std::exchange(other.counted_, false)),
+      owner_(other.owner_) {}
+
+Segment& Segment::operator=(Segment&& other) noexcept {
+  if (this == &other) return *this;
+  close();
+  slot_ = other.slot_;
+  id_ = other.id_;
+  base_ = std::exchange(other.base_, nullptr);
+  layout_ = other.layout_;
+  writable_ = other.writable_;
+  counted_ = std::exchange(other.counted_, false);
+  owner_ = other.owner_;
+  return *this;
+}
+
+tl::expected<Segment, SlotFault> Segment::attach(int slot) noexcept {
+  const auto found = find_segment(slot);
+  if (!found) return tl::unexpected(found.error());
+  const SegmentLayout* layout = layout_of_size(found->state.shm_segsz);
+  if (layout == nullptr) {
+    SlotFault fault = slot_fault(SlotProblem::foreign, slot);
+    fault.size = found->state.shm_segsz;
+    return tl::unexpected(fault);
+  }
+  if (const auto unshared = check_unshared(slot, found->key); !unshared) return tl::unexpected(unshared.error());
+  const auto mapping = map(slot, found->id);
+  if (!mapping) return tl::unexpected(mapping.error());
+  if (const auto sound = check_magic(slot, mapping->base, *layout); !sound) {
+    ::shmdt(mapping->base);
+    return tl::unexpected(sound.error());
+  }
+  Segment segment(slot, found->id, mapping->base, *layout, mapping->writable);
+  segment.count_in();
+  // The last one to use it may have removed it between the look and the attachment.
+  if (segment.fate(true) != SegmentFate::current) return tl::unexpected(slot_fault(SlotProblem::no_segment, slot));
+  return segment;
+}
+
+tl::expected<Segment, SlotFault> Segment::create(int slot, const SegmentLayout& layout, int mode) noexcept {
+  const auto key = slot_key(slot);
+  if (!key) return tl::unexpected(key.error());
+  if (const auto unshared = check_unshared(slot, *key); !unshared) return tl::unexpected(unshared.error());
+  const int id = ::shmget(*key, layout.size, IPC_CREAT | IPC_EXCL | mode);
+  if (id < 0) return tl::unexpected(errno == EEXIST ? slot_fault(SlotProblem::exists, slot) : system_fault(slot));
+  const auto mapping = map(slot, id);
+  if (!mapping || !mapping->writable) {
+    if (mapping) ::shmdt(mapping->base);
+    ::shmctl(id, IPC_RMID, nullptr);
+    return tl::unexpected(mapping ? SlotFault{SlotProblem::system, slot, 0, 0, 0, EACCES} : mapping.error());
+  }
+  Segment segment(slot, id, mapping->base, layout, true);
+  segment.finish();
+  // Somebody may have removed the file while the segment was in the making; nobody could find it then.
+  if (!means(slot, id)) {
+    ::shmctl(id, IPC_RMID, nullptr);
+    return tl::unexpected(slot_fault(SlotProblem::exists, slot));
+  }
+  return segment;
+}
+
+tl::expected<Segment, SlotFault> Segment::adopt(int slot) noexcept {
+  const auto found = find_segment(slot);
+  if (!found) return tl::unexpected(found.error());
+  const SegmentLayout* layout = layout_of_size(found->state.shm_segsz);
+  SlotFault unfinished = slot_fault(SlotProblem::unfinished, slot);
+  unfinished.size = found->state.shm_segsz;
+  if (layout == nullptr || found->state.shm_nattch != 0 || !is_dead(found->state.shm_cpid)) {
+    return tl::unexpected(unfinished);
+  }
+  const auto mapping = map(slot, found->id);
+  if (!mapping) return tl::unexpected(mapping.error());
+  Segment segment(slot, found->id, mapping->base, *layout, mapping->writable);
+  if (!mapping->writable || !is_all_zero(segment.base_, layout->size) || segment.attachments() != 1) {
+    ::shmdt(segment.let_go());
+    return tl::unexpected(unfinished);
+  }
+  segment.finish();
+  return segment;
+}
+
+tl::expected<Segment, SlotFault> Segment::attach_or_create(int slot, const SegmentLayout& layout, int mode) noexcept {
+  bool own_file = false;
+  int waits = 0;
+  SlotFault last = slot_fault(SlotProblem::exists, slot);
+  for (int attempt = 0; attempt < open_attempts;) {
+    auto segment = attach(slot);
+    if (!segment && segment.error().problem == SlotProblem::unfinished && waits++ < unfinished_waits) {
+      ::nanosleep(&unfinished_wait, nullptr);
+      continue;
+    }
+    ++attempt;
+    if (!segment && segment.error().problem == SlotProblem::unfinished) segment = adopt(slot);
+    if (!segment && segment.error().problem == SlotProblem::no_file) {
+      const auto made = make_slot_file(slot);
+      if (!made) return tl::unexpected(made.error());
+      own_file = own_file || *made;
+    }
+    if (!segment && is_absence(segment.error().problem) && segment.error().problem != SlotProblem::unfinished) {
+      segment = create(slot, layout, mode);
+    }
+    if (segment) return segment;
+    last = segment.error();
+    if (last.problem == SlotProblem::exists || is_absence(last.problem)) continue;
+    // A key that is of no use is a matter of the file's inode, and nobody else can share this file yet.
+    const bool unlucky = last.problem == SlotProblem::foreign || last.problem == SlotProblem::key_shared;
+    if (last.problem != SlotProblem::key_zero && !(unlucky && own_file)) return tl::unexpected(last);
+    if (const auto renewed = renew_slot_file(slot); !renewed) return tl::unexpected(renewed.error());
+    own_file = true;
+  }
+  return tl::unexpected(last);
+}
+
+void Segment::count_in() noexcept {
+  if (!writable_) return;
+  __atomic_add_fetch(at<std::int32_t>(base_, layout_->connected), 1, __ATOMIC_ACQ_REL);
+  counted_ = true;
+}
+
+// Magic last: with it the segment can be used by others.
+void Segment::finish() noexcept {
+  count_in();
+  if (layout_->magic_size == 8) {
+    __atomic_store_n(at<std::uint64_t>(base_, 0), std::uint64_t{segment_magic}, __ATOMIC_RELEASE);
+  } else {
+    __atomic_store_n(at<std::uint32_t>(base_, 0), segment_magic, __ATOMIC_RELEASE);
+  }
+}
+
+char* Segment::let_go() noexcept {
+  counted_ = false;
+  return std::exchange(base_, nullptr);
+}
+
+void Segment::close() noexcept {
+  if (base_ == nullptr) return;
+  if (counted_ && owner_ == ::getpid()) {
+    __atomic_sub_fetch(at<std::int32_t>(base_, layout_->connected), 1, __ATOMIC_ACQ_REL);
+  }
+  // Detached before the count is looked at: of two that leave at once, one then sees that it was the last.
+  ::shmdt(let_go());
+  remove_if_last(slot_, id_);
+}
+
+std::int32_t Segment::connected() const noexcept {
+  return __atomic_load_n(at<std::int32_t>(base_, layout_->connected), __ATOMIC_ACQUIRE);
+}
+
+std::size_t Segment::attachments() const noexcept {
+  shmid_ds state{};
+  return ::shmctl(id_, IPC_STAT, &state) == 0 ? state.shm_nattch : 0;
+}
+
+SegmentFate Segment::fate(bool look_up) const noexcept {
+  shmid_ds state{};
+  if (::shmctl(id_, IPC_STAT, &state) != 0) {
+    if (errno == EINVAL || errno == EIDRM) return SegmentFate::removed;
+  } else if ((state.shm_perm.mode & SHM_DEST) != 0) {
+    return SegmentFate::removed;
+  }
+  if (!look_up) return SegmentFate::current;
+  const auto found = find_segment(slot_);
+  return found && found->id != id_ ? SegmentFate::replaced : SegmentFate::current;
+}
+
+std::uint16_t Segment::params_counter() const noexcept {
+  return __atomic_load_n(at<std::uint16_t>(base_, layout_->params_counter), __ATOMIC_ACQUIRE);
+}
+
+std::uint16_t Segment::constants_counter() const noexcept {
+  return __atomic_load_n(at<std::uint16_t>(base_, layout_->constants_counter), __ATOMIC_ACQUIRE);
+}
+
+bool Segment::copy(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::size_t size,
+                   RecordImage& into) const noexcept {
+  const auto* counter = at<std::uint16_t>(base_, counter_at);
+  into.size = size;
+  for (int i = 0; i < copy_attempts; ++i) {
+    into.counter = __atomic_load_n(counter, __ATOMIC_ACQUIRE);
+    copy_words_out(base_ + elements[into.counter & 1U], size, into.bytes.data());
+    std::atomic_thread_fence(std::memory_order_acquire);
+    if (__atomic_load_n(counter, __ATOMIC_RELAXED) == into.counter) return true;
+  }
+  return false;
+}
+
+bool Segment::copy_params(RecordImage& into) const noexcept {
+  return copy(layout_->params_counter, layout_->params, layout_->params_size, into);
+}
+
+bool Segment::copy_constants(RecordImage& into) const noexcept {
+  return copy(layout_->constants_counter, layout_->constants, layout_->constants_size, into);
+}
+
+void Segment::put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept {
+  auto* counter = at<std::uint16_t>(base_, counter_at);
+  const auto next = static_cast<std::uint16_t>(__atomic_load_n(counter, __ATOMIC_RELAXED) + 1U);
+  // The element may be in a slow reader's hands: it must see the counter of the write before this one first.
+  std::atomic_thread_fence(std::memory_order_release);
+  copy_words_in(image.data(), image.size(), base_ + elements[next & 1U]);
+  __atomic_store_n(counter, next, __ATOMIC_RELEASE);
+}
+
+tl::expected<void, wire::Fault> Segment::write(const wire::CameraParams& params) noexcept {
+  wire::Buffer buffer;
+  const auto image = wire::to_image(params, layout_->record, buffer);
+  if (!image) return tl::unexpected(image.error());
+  put(layout_->params_counter, layout_->params, *image);
+  return {};
+}
+
+tl::expected<void, wire::Fault> Segment::write(const wire::CameraConstants& constants) noexcept {
+  wire::Buffer buffer;
+  const auto image = wire::to_image(constants, layout_->record, buffer);
+  if (!image) return tl::unexpected(image.error());
+  put(layout_->constants_counter, layout_->constants, *image);
+  return {};
+}
+
+tl::expected<void, SlotFault> Segment::recreate(int mode) noexcept {
+  const std::size_t body = layout_->params_counter;
+  std::array<char, 1024> contents{};
+  copy_words_out(base_ + body, layout_->size - body, contents.data());
+  if (::shmctl(id_, IPC_RMID, nullptr) != 0) {
+    const SlotFault fault = system_fault(slot_);
+    close();
+    return tl::unexpected(fault);
+  }
+  const SegmentLayout& layout = *layout_;
+  const int slot = slot_;
+  close();
+  auto fresh = attach_or_create(slot, layout, mode);
+  if (!fresh) return tl::unexpected(fresh.error());
+  const bool untouched = fresh->params_counter() == 0 && fresh->constants_counter() == 0;
+  if (untouched && fresh->layout_ == &layout) {
+    // Counters last: a reader that attaches meanwhile finds nothing or all.
+    constexpr std::size_t counters = 4;
+    copy_words_in(contents.data() + counters, layout.size - body - counters, fresh->base_ + body + counters);
+    std::atomic_thread_fence(std::memory_order_release);
+    copy_words_in(contents.data(), counters, fresh->base_ + body);
+  }
+  *this = std::move(*fresh);
+  return {};
+}
+
+}  // namespace trk_bridge::shm

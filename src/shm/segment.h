@@ -1,0 +1,166 @@
+// One shared memory segment of a slot (wire format, "Shared memory"): finding, making, reading, writing and removing
+// it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <sys/types.h>
+
+#include <tl/expected.hpp>
+
+#include "trk_bridge/wire/codec.h"
+#include "trk_bridge/wire/layout.h"
+
+namespace trk_bridge::shm {
+
+/// Slots are 0 to `slot_count` - 1.
+inline constexpr int slot_count = 62;
+/// What every trk segment begins with, as the maker's unsigned long.
+inline constexpr std::uint32_t segment_magic = 0x2357BD01;
+
+/// Where things lie in a segment, in bytes from its beginning. The size identifies the layout.
+struct SegmentLayout {
+  std::size_t size;
+  wire::Layout record;
+  std::size_t magic_size;  ///< of an unsigned long
+  std::size_t connected, params_counter, constants_counter;
+  std::size_t params_size, constants_size;
+  std::array<std::size_t, 2> params, constants;
+};
+
+/// The layouts that a segment on this machine can have.
+const std::array<SegmentLayout, 4>& segment_layouts() noexcept;
+/// Null when no segment has this size.
+const SegmentLayout* layout_of_size(std::size_t) noexcept;
+/// Null when no segment on this machine has this record layout.
+const SegmentLayout* layout_of(wire::Layout) noexcept;
+
+/// The slot's file, "/tmp/dmc_tracking_buffer.7". The slot must be valid.
+std::string slot_path(int slot);
+
+/// What is wrong with a slot.
+enum class SlotProblem : std::uint8_t {
+  bad_slot,    ///< not 0..61
+  no_file,     ///< nobody has opened the slot
+  no_segment,  ///< the file is there, the segment is not
+  unfinished,  ///< a segment that is all zero: its maker is at it, or died
+  foreign,     ///< a segment under the slot's key that is not trk: `size`, and `magic` where the size was right
+  not_a_file,  ///< something else has the slot file's name
+  key_zero,    ///< ftok gives 0, which the kernel takes for "private"
+  key_shared,  ///< `other_slot` has the same key
+  exists,      ///< somebody else made the segment at the same moment
+  system,      ///< the kernel refused: `error_number`
+};
+
+/// Why a segment cannot be used. Cheap to copy, never allocates.
+struct SlotFault {
+  SlotProblem problem;
+  int slot = 0;
+  std::size_t size = 0;
+  std::uint64_t magic = 0;
+  int other_slot = 0;
+  int error_number = 0;
+};
+inline bool operator==(const SlotFault& a, const SlotFault& b) noexcept {
+  return a.problem == b.problem && a.slot == b.slot && a.size == b.size && a.magic == b.magic &&
+         a.other_slot == b.other_slot && a.error_number == b.error_number;
+}
+/// "slot 7: segment of 300 bytes is no trk layout".
+std::string describe(const SlotFault&);
+
+/// Whether the fault is that there is nothing yet, so that waiting makes sense.
+constexpr bool is_absence(SlotProblem p) noexcept {
+  return p == SlotProblem::no_file || p == SlotProblem::no_segment || p == SlotProblem::unfinished;
+}
+
+/// A record as it lies in a segment, and the write counter it was current at.
+struct RecordImage {
+  std::array<char, 256> bytes{};
+  std::size_t size = 0;
+  std::uint16_t counter = 0;
+
+  std::string_view view() const noexcept { return {bytes.data(), size}; }
+};
+
+/// What has become of an attached segment.
+enum class SegmentFate : std::uint8_t {
+  current,   ///< the slot still means it, or means nothing
+  removed,   ///< marked destroyed: nobody new will come to it
+  replaced,  ///< the slot means another segment now
+};
+
+/// One attachment. `connected` in the segment goes up with it and down when it ends; the last attachment of any process
+/// removes segment and file. Who is last is the kernel's attach count, not `connected`, which dead processes leave too
+/// high. A segment without write permission is attached for reading alone and its `connected` left as it is. In a child
+/// after fork() the copy only lets go of the memory.
+///
+/// Functions may be called from any thread that has the object to itself; any number of processes read one segment
+/// while one writes. Nothing allocates but describe().
+class Segment {
+ public:
+  /// Attaches to the slot's segment. A segment that is not trk in size and magic is left exactly as it is.
+  [[nodiscard]] static tl::expected<Segment, SlotFault> attach(int slot) noexcept;
+  /// Attaches, or makes file and segment where there is none. `mode` is the new segment's, whatever the umask. Waits up
+  /// to 200 ms for another maker to finish; takes over from one that died half way.
+  [[nodiscard]] static tl::expected<Segment, SlotFault> attach_or_create(int slot, const SegmentLayout&,
+                                                                         int mode) noexcept;
+
+  Segment(Segment&&) noexcept;
+  Segment& operator=(Segment&&) noexcept;
+  ~Segment() { close(); }
+
+  /// Ends the attachment as the destructor does. Closing again does nothing.
+  void close() noexcept;
+
+  const SegmentLayout& layout() const noexcept { return *layout_; }
+  int slot() const noexcept { return slot_; }
+  int id() const noexcept { return id_; }
+  bool writable() const noexcept { return writable_; }
+
+  std::int32_t connected() const noexcept;
+  /// How many attachments the kernel counts, this one included; 0 when it cannot say.
+  std::size_t attachments() const noexcept;
+  /// `look_up`: ask for the slot's file and key, too; without it only `removed` is noticed, by one system call.
+  SegmentFate fate(bool look_up) const noexcept;
+
+  std::uint16_t params_counter() const noexcept;
+  std::uint16_t constants_counter() const noexcept;
+  /// Copies the newest record. False when a writer changed it every time: then `into` holds nothing of use.
+  [[nodiscard]] bool copy_params(RecordImage& into) const noexcept;
+  /// Copies the newest constants. False as above.
+  [[nodiscard]] bool copy_constants(RecordImage& into) const noexcept;
+
+  /// Writes the next record. The fault is that the segment's layout cannot hold it (a counter above 32 bits in an i386
+  /// segment, a number that is not finite): then nothing is written. Must be writable().
+  [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraParams&) noexcept;
+  [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraConstants&) noexcept;
+
+  /// trkMemRecreate: removes this segment and goes on in a fresh one with the same contents. On a fault there is no
+  /// segment left: the object is closed.
+  [[nodiscard]] tl::expected<void, SlotFault> recreate(int mode) noexcept;
+
+ private:
+  Segment(int slot, int id, char* base, const SegmentLayout& layout, bool writable) noexcept;
+  static tl::expected<Segment, SlotFault> create(int slot, const SegmentLayout&, int mode) noexcept;
+  static tl::expected<Segment, SlotFault> adopt(int slot) noexcept;
+  bool copy(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::size_t size,
+            RecordImage& into) const noexcept;
+  void put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept;
+  void count_in() noexcept;
+  void finish() noexcept;
+  char* let_go() noexcept;
+
+  int slot_;
+  int id_;
+  char* base_;
+  const SegmentLayout* layout_;
+  bool writable_;
+  bool counted_ = false;
+  pid_t owner_;
+};
+
+}  // namespace trk_bridge::shm

@@ -1,0 +1,74 @@
+#include <cerrno>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "link.h"
+#include "scheme.h"
+
+namespace trk_bridge::shm {
+namespace {
+
+using transport::SinkFault;
+using transport::SinkReason;
+using transport::TransportError;
+using transport::Written;
+
+constexpr wire::Layout default_layout{wire::Generation::document, wire::Abi::lp64, wire::ByteOrder::little};
+
+Link::Options options_of(const Settings& settings) {
+  const std::string slot = "shm slot " + std::to_string(settings.slot);
+  const wire::Layout record = wire::resolve(settings.layout, default_layout);
+  const SegmentLayout* layout = layout_of(record);
+  if (layout == nullptr) {
+    throw TransportError(slot + ": no segment has the layout " + wire::describe(record) +
+                         "; allowed are document and identified, lp64 and i386, in this machine's byte order");
+  }
+  if (settings.mode < 0 || settings.mode > 0777) {
+    throw TransportError(slot + ": mode " + std::to_string(settings.mode) + " is not a permission from 0 to 0777");
+  }
+  return {settings.slot, layout, settings.mode, settings.recreate};
+}
+
+/// A segment that was removed or replaced is created again within the write that meets it; `gone` says that this
+/// failed.
+class ShmSink final : public transport::Sink {
+ public:
+  explicit ShmSink(const Settings& settings)
+      : name_("shm slot " + std::to_string(settings.slot)), link_(options_of(settings)) {
+    const auto open = link_.keep_for_writing(Link::Clock::now());
+    if (!open) throw TransportError("shm " + describe(open.error()));
+    if (!link_.segment()->writable()) throw TransportError(name_ + ": no permission to write to the segment");
+  }
+
+  std::string name() const override { return name_; }
+
+ private:
+  Written put(const wire::CameraParams& params) override { return write_record(params); }
+  Written put(const wire::CameraConstants& constants) override { return write_record(constants); }
+  Written finish() override {
+    link_.close();
+    return {};
+  }
+
+  template <typename Record>
+  Written write_record(const Record& record) {
+    if (const auto kept = link_.keep_for_writing(Link::Clock::now()); !kept) {
+      return tl::make_unexpected(SinkFault{SinkReason::gone, {}, kept.error().error_number});
+    }
+    if (!link_.segment()->writable()) return tl::make_unexpected(SinkFault{SinkReason::system, {}, EACCES});
+    if (const auto written = link_.write(record); !written) {
+      return tl::make_unexpected(SinkFault{SinkReason::not_encodable, written.error(), 0});
+    }
+    return {};
+  }
+
+  const std::string name_;
+  Link link_;
+};
+
+}  // namespace
+
+std::unique_ptr<transport::Sink> open_sink(const Settings& settings) { return std::make_unique<ShmSink>(settings); }
+
+}  // namespace trk_bridge::shm

@@ -1,0 +1,141 @@
+#include "slot.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace trk_bridge::shm {
+namespace {
+
+constexpr std::string_view prefix = "/tmp/dmc_tracking_buffer.";
+constexpr std::string_view characters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+static_assert(characters.size() == slot_count);
+
+// The field's own files have it; only their inode counts.
+constexpr mode_t file_mode = 0755;
+
+std::string hexadecimal(std::uint64_t value) {
+  std::array<char, 24> text{};
+  std::snprintf(text.data(), text.size(), "0x%llX", static_cast<unsigned long long>(value));
+  return text.data();
+}
+
+std::string describe_problem(const SlotFault& f) {
+  const std::string size = std::to_string(f.size);
+  switch (f.problem) {
+    case SlotProblem::bad_slot:
+      return "no such slot; slots are 0 to " + std::to_string(slot_count - 1);
+    case SlotProblem::no_file:
+    case SlotProblem::no_segment:
+      return "no segment";
+    case SlotProblem::unfinished:
+      return "segment of " + size + " bytes is all zero: its maker has not finished it";
+    case SlotProblem::foreign:
+      if (layout_of_size(f.size) == nullptr) return "segment of " + size + " bytes is no trk layout";
+      return "segment of " + size + " bytes begins with " + hexadecimal(f.magic) + " instead of " +
+             hexadecimal(segment_magic) + " and is not trk";
+    case SlotProblem::not_a_file:
+      return slot_path(f.slot) + " is not a regular file";
+    case SlotProblem::key_zero:
+      return slot_path(f.slot) + " has the key 0, which cannot be shared; delete the file";
+    case SlotProblem::key_shared:
+      return "has the same key as slot " + std::to_string(f.other_slot) + "; delete " + slot_path(f.slot) + " or " +
+             slot_path(f.other_slot) + ", whichever is not in use";
+    case SlotProblem::exists:
+      return "another program makes and removes the segment at the same time";
+    case SlotProblem::system:
+      return std::strerror(f.error_number);
+  }
+  return "unknown problem";
+}
+
+}  // namespace
+
+std::string describe(const SlotFault& fault) {
+  return "slot " + std::to_string(fault.slot) + ": " + describe_problem(fault);
+}
+
+SlotFault system_fault(int slot) noexcept { return {SlotProblem::system, slot, 0, 0, 0, errno}; }
+
+SlotPath::SlotPath(int slot) noexcept : text_{} {
+  static_assert(prefix.size() + 2 <= sizeof text_);
+  std::copy(prefix.begin(), prefix.end(), text_.begin());
+  text_[prefix.size()] = characters[static_cast<std::size_t>(slot)];
+}
+
+std::string slot_path(int slot) { return SlotPath(slot).c_str(); }
+
+tl::expected<key_t, SlotFault> slot_key(int slot) noexcept {
+  if (slot < 0 || slot >= slot_count) return tl::unexpected(slot_fault(SlotProblem::bad_slot, slot));
+  const SlotPath path(slot);
+  struct stat state {};
+  if (::lstat(path.c_str(), &state) != 0) {
+    return tl::unexpected(errno == ENOENT ? slot_fault(SlotProblem::no_file, slot) : system_fault(slot));
+  }
+  if (!S_ISREG(state.st_mode)) return tl::unexpected(slot_fault(SlotProblem::not_a_file, slot));
+  const key_t key = ::ftok(path.c_str(), 0);
+  if (key == -1) {
+    return tl::unexpected(errno == ENOENT ? slot_fault(SlotProblem::no_file, slot) : system_fault(slot));
+  }
+  if (key == IPC_PRIVATE) return tl::unexpected(slot_fault(SlotProblem::key_zero, slot));
+  return key;
+}
+
+tl::expected<bool, SlotFault> make_slot_file(int slot) noexcept {
+  const SlotPath path(slot);
+  const int fd = ::open(path.c_str(), O_CREAT | O_EXCL | O_RDWR | O_NOFOLLOW | O_CLOEXEC, file_mode);
+  if (fd < 0) {
+    if (errno == EEXIST) return false;
+    return tl::unexpected(system_fault(slot));
+  }
+  ::close(fd);
+  return true;
+}
+
+tl::expected<void, SlotFault> renew_slot_file(int slot) noexcept {
+  const SlotPath path(slot);
+  // Made while the old one still is, so that the inode cannot be the same.
+  std::array<char, 48> fresh{};
+  std::snprintf(fresh.data(), fresh.size(), "%s.XXXXXX", path.c_str());
+  const int fd = ::mkostemp(fresh.data(), O_CLOEXEC);
+  if (fd < 0) return tl::unexpected(system_fault(slot));
+  const bool ready = ::fchmod(fd, file_mode) == 0;
+  ::close(fd);
+  if (ready && ::rename(fresh.data(), path.c_str()) == 0) return {};
+  const SlotFault fault = system_fault(slot);
+  ::unlink(fresh.data());
+  return tl::unexpected(fault);
+}
+
+tl::expected<void, SlotFault> check_unshared(int slot, key_t key) noexcept {
+  for (int other = 0; other < slot_count; ++other) {
+    if (other == slot || slot_key(other).value_or(IPC_PRIVATE) != key) continue;
+    SlotFault fault = slot_fault(SlotProblem::key_shared, slot);
+    fault.other_slot = other;
+    return tl::unexpected(fault);
+  }
+  return {};
+}
+
+tl::expected<FoundSegment, SlotFault> find_segment(int slot) noexcept {
+  const auto key = slot_key(slot);
+  if (!key) return tl::unexpected(key.error());
+  FoundSegment found{*key, ::shmget(*key, 0, 0), {}};
+  if (found.id < 0) {
+    return tl::unexpected(errno == ENOENT ? slot_fault(SlotProblem::no_segment, slot) : system_fault(slot));
+  }
+  if (::shmctl(found.id, IPC_STAT, &found.state) != 0) {
+    const bool gone = errno == EINVAL || errno == EIDRM;
+    return tl::unexpected(gone ? slot_fault(SlotProblem::no_segment, slot) : system_fault(slot));
+  }
+  return found;
+}
+
+}  // namespace trk_bridge::shm

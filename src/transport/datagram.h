@@ -1,0 +1,89 @@
+// Protocols over UDP: what a protocol adds to sockets, and what its URLs have in common with others.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+#include "receive_socket.h"
+#include "scheme.h"
+#include "trk_bridge/transport/sample.h"
+#include "trk_bridge/transport/sink.h"
+#include "trk_bridge/transport/source.h"
+#include "trk_bridge/wire/record.h"
+
+namespace trk_bridge::transport {
+
+/// Datagrams of one port to samples. It may remember what it needs of each sender. Not synchronised; does not allocate
+/// while datagrams come.
+class Decoder {
+ public:
+  virtual ~Decoder() = default;
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  enum class Next : std::uint8_t {
+    sample,  ///< `into` has the next one
+    fault,   ///< one record was not sound; there may be more
+    none,    ///< the datagram has no more
+  };
+
+  /// The datagram whose samples next() gives from now on. The bytes stay until the next call of begin().
+  virtual void begin(std::string_view datagram, const Sender&) noexcept = 0;
+  /// Fills all of a sample but arrival and sender, which are the socket's to know.
+  [[nodiscard]] virtual Next next(Sample& into, Fault& fault) noexcept = 0;
+
+ protected:
+  Decoder() = default;
+};
+
+/// Records to datagrams. Not synchronised; does not allocate while records come.
+class Encoder {
+ public:
+  virtual ~Encoder() = default;
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
+
+  /// The record whose datagrams next() gives from now on.
+  [[nodiscard]] virtual tl::expected<void, Fault> begin(const wire::CameraParams&) noexcept = 0;
+  [[nodiscard]] virtual tl::expected<void, Fault> begin(const wire::CameraConstants&) noexcept = 0;
+  /// The next datagram, which holds until the call after; none when all have been given.
+  virtual std::optional<std::string_view> next() noexcept = 0;
+
+ protected:
+  Encoder() = default;
+};
+
+/// Throws TransportError.
+std::unique_ptr<Source> open_datagram_source(const ReceiveSettings&, std::unique_ptr<Decoder>);
+
+/// Where to send to: one address, a broadcast address or a multicast group.
+struct SendSettings {
+  std::string host;        ///< IPv6 without its brackets; a name is looked up at opening, IPv4 before IPv6
+  std::uint16_t port = 0;  ///< 1 to 65535
+  /// An address of this machine or an interface's name, for groups. Empty: the system's choice.
+  std::string interface;
+  std::optional<int> ttl;  ///< 0..255 (unicast and broadcast 1..255): how many routers it may pass, less one
+  /// Seconds to 86400 after which constants are sent again with the next parameters of their id; 0: never.
+  double constants_period = 1.0;
+};
+
+/// Sends from the thread that writes, and never blocks. Throws TransportError.
+std::unique_ptr<Sink> open_datagram_sink(const SendSettings&, std::unique_ptr<Encoder>);
+
+extern const std::array<Option<ReceiveSettings>, 3> receive_options;
+extern const std::array<Option<SendSettings>, 3> send_options;
+
+/// Host and port of the URL. The port must be given.
+tl::expected<void, std::string> set_place(const Url& url, ReceiveSettings& settings);
+tl::expected<void, std::string> set_place(const Url& url, SendSettings& settings);
+
+/// Equal for two that only one of them could bind.
+std::string place_of(const ReceiveSettings& settings);
+
+}  // namespace trk_bridge::transport

@@ -1,0 +1,104 @@
+#include "trk_bridge/transport/sample.h"
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include <arpa/inet.h>
+
+namespace trk_bridge::transport {
+namespace {
+
+std::string address_text(int family, const Sender& sender) {
+  char text[INET6_ADDRSTRLEN] = "";
+  ::inet_ntop(family, sender.address.data(), text, sizeof text);
+  return text;
+}
+
+std::string describe_wire(const Fault& fault) {
+  wire::Fault of_wire{static_cast<wire::Reason>(fault.code())};
+  of_wire.about_field = fault.field() >= 0;
+  if (of_wire.about_field) of_wire.field = static_cast<std::uint8_t>(fault.field());
+  return wire::describe(of_wire);
+}
+
+constexpr std::size_t generations = 2, abis = 3, orders = 2;
+
+constexpr std::size_t index_of(const wire::Layout& layout, bool guessed) noexcept {
+  std::size_t index = static_cast<std::size_t>(layout.generation);
+  index = index * abis + static_cast<std::size_t>(layout.abi);
+  index = index * orders + static_cast<std::size_t>(layout.byte_order);
+  return index * 2 + (guessed ? 1 : 0);
+}
+
+/// Ends with a NUL.
+struct Text {
+  std::array<char, 48> characters{};
+  std::size_t size = 0;
+
+  constexpr void add(std::string_view more) noexcept {
+    for (const char c : more) characters[size++] = c;
+  }
+};
+
+/// The layout as `layout=…` of a URL has it.
+constexpr Text text_of(const wire::Layout& layout, bool guessed) noexcept {
+  Text text;
+  text.add("binary ");
+  text.add(layout.generation == wire::Generation::document ? "document" : "identified");
+  text.add(layout.abi == wire::Abi::lp64 ? "_lp64" : layout.abi == wire::Abi::llp64 ? "_llp64" : "_i386");
+  if (layout.byte_order == wire::ByteOrder::big) text.add("_be");
+  if (guessed) text.add(", layout guessed");
+  return text;
+}
+
+using Texts = std::array<Text, generations * abis * orders * 2>;
+
+constexpr Texts all_texts() noexcept {
+  Texts texts;
+  for (const auto generation : {wire::Generation::document, wire::Generation::identified}) {
+    for (const auto abi : {wire::Abi::lp64, wire::Abi::llp64, wire::Abi::i386}) {
+      for (const auto order : {wire::ByteOrder::little, wire::ByteOrder::big}) {
+        for (const bool guessed : {false, true}) {
+          const wire::Layout layout{generation, abi, order};
+          texts[index_of(layout, guessed)] = text_of(layout, guessed);
+        }
+      }
+    }
+  }
+  return texts;
+}
+
+// Made by the compiler, so that the first sample allocates nothing either.
+constexpr Texts texts = all_texts();
+
+}  // namespace
+
+std::string to_string(const Sender& sender) {
+  switch (sender.kind) {
+    case SenderKind::none:
+      return "-";
+    case SenderKind::ipv4:
+      return address_text(AF_INET, sender) + ":" + std::to_string(sender.number);
+    case SenderKind::ipv6:
+      return "[" + address_text(AF_INET6, sender) + "]:" + std::to_string(sender.number);
+    case SenderKind::shm:
+      return "slot " + std::to_string(sender.number);
+    case SenderKind::file:
+      return "file";
+    case SenderKind::memory:
+      return "memory";
+  }
+  return "-";
+}
+
+Fault::Fault(const wire::Fault& fault) noexcept
+    : Fault(wire::name(fault.reason), describe_wire, static_cast<std::uint8_t>(fault.reason),
+            fault.about_field ? std::int16_t{fault.field} : std::int16_t{-1}) {}
+
+const char* origin_of(const wire::WireForm& form, bool layout_guessed) noexcept {
+  if (form.encoding == wire::Encoding::ascii) return "ASCII";
+  return texts[index_of(form.layout, layout_guessed)].characters.data();
+}
+
+}  // namespace trk_bridge::transport

@@ -1,0 +1,98 @@
+// Sockets: their descriptors, addresses, options, and the interfaces that multicast goes through.
+#pragma once
+
+#include <cerrno>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "trk_bridge/transport/source.h"
+
+namespace trk_bridge::transport {
+
+class Descriptor {
+ public:
+  Descriptor() = default;
+  /// Takes what a system call gave; negative is none.
+  explicit Descriptor(int fd) noexcept : fd_(fd) {}
+  ~Descriptor() { close(); }
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    if (this != &other) {
+      close();
+      fd_ = std::exchange(other.fd_, -1);
+    }
+    return *this;
+  }
+
+  int get() const noexcept { return fd_; }
+  bool is_open() const noexcept { return fd_ >= 0; }
+  void close() noexcept {
+    if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+  }
+
+ private:
+  int fd_ = -1;
+};
+
+struct SocketAddress {
+  sockaddr_storage storage{};
+  socklen_t length = 0;
+
+  const sockaddr* get() const noexcept { return reinterpret_cast<const sockaddr*>(&storage); }
+  sockaddr* get() noexcept { return reinterpret_cast<sockaddr*>(&storage); }
+  int family() const noexcept { return storage.ss_family; }
+};
+
+/// Every address that `host` (a name, an IPv4 or an IPv6 address, the latter with %ZONE where it needs one) stands for,
+/// IPv4 before IPv6, never none. Throws TransportError with the host and the resolver's reason.
+std::vector<SocketAddress> resolve(const std::string& host, std::uint16_t port);
+
+/// An address written as numbers; none when it is not.
+std::optional<SocketAddress> numeric_address(const std::string& text);
+
+/// `::`, which takes IPv4 too when its socket does.
+SocketAddress any_ipv6(std::uint16_t port) noexcept;
+SocketAddress any_ipv4(std::uint16_t port) noexcept;
+
+/// Mapped IPv4 addresses count as IPv4; `none` for other families.
+Sender sender_of(const sockaddr_storage& address) noexcept;
+
+bool is_any(const SocketAddress& address) noexcept;
+bool is_multicast(const SocketAddress& address) noexcept;
+/// Whether this machine's routes take it for a broadcast address.
+bool is_broadcast(const SocketAddress& address) noexcept;
+
+/// Where the socket is bound. Throws TransportError.
+SocketAddress bound_address(int fd);
+
+/// Throws TransportError: "`what`: the system refused: …".
+template <typename T>
+void set_option(int fd, int level, int option, const T& value, const char* what) {
+  if (::setsockopt(fd, level, option, &value, sizeof value) == 0) return;
+  throw TransportError(std::string(what) + ": the system refused: " + std::generic_category().message(errno));
+}
+
+struct Interface {
+  unsigned index = 0;
+  in_addr ipv4{};  ///< the address it was named by; 0.0.0.0 when by name or IPv6 address
+};
+
+/// By an address it has or by its name. Throws TransportError that lists what there is.
+Interface find_interface(const std::string& address_or_name);
+
+/// Hears `group` through the interface named, else that of the address's zone, else every one that is up and can do
+/// multicast, and the loopback; and nothing through others, whoever joined it there. Throws TransportError.
+void join_group(int fd, const SocketAddress& group, const std::string& interface);
+
+/// Sends to groups through the interface. Throws TransportError.
+void send_through(int fd, int family, const Interface& interface);
+
+}  // namespace trk_bridge::transport

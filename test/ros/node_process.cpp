@@ -1,0 +1,41 @@
+#include "node_process.h"
+
+#include <csignal>
+#include <vector>
+
+namespace trk_bridge::test {
+
+NodeProcessTest::NodeProcessTest(const std::string& of_program)
+    : CameraTest(of_program.substr(of_program.find_last_of('/') + 1)), program_path(of_program) {}
+
+void NodeProcessTest::start() {
+  node = std::make_unique<Program>(
+      std::vector<std::string>{program_path, "__ns:=" + name_space, "/diagnostics:=" + diagnostics.topic()});
+}
+
+::testing::AssertionResult NodeProcessTest::starts() {
+  start();
+  auto told = tells_of(camera);
+  if (!told) {
+    node->signal(SIGKILL);
+    told << "; it said: " << node->rest_of_err();
+  }
+  return told;
+}
+
+std::string NodeProcessTest::refusal() {
+  start();
+  const std::string said = node->rest_of_err();
+  EXPECT_EQ(node->wait(), 1);
+  return said;
+}
+
+std::chrono::nanoseconds NodeProcessTest::interrupted() {
+  const auto begin = std::chrono::steady_clock::now();
+  node->signal(SIGINT);
+  (void)node->rest_of_err();
+  EXPECT_EQ(node->wait(), 0);
+  return std::chrono::steady_clock::now() - begin;
+}
+
+}  // namespace trk_bridge::test

@@ -1,0 +1,30 @@
+// A node as a process of its own, where how it starts and ends is what is tested.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "fixture.h"
+#include "program.h"
+
+namespace trk_bridge::test {
+
+class NodeProcessTest : public CameraTest {
+ protected:
+  /// The node bears the name of its program.
+  explicit NodeProcessTest(const std::string& of_program);
+
+  void start();
+  /// Starts it and waits until it has told the state of its camera.
+  ::testing::AssertionResult starts();
+  /// Expects it to end with 1 at once and returns what it said.
+  std::string refusal();
+  /// Ends it as Ctrl-C does; how long that took.
+  std::chrono::nanoseconds interrupted();
+
+  std::string program_path;
+  std::unique_ptr<Program> node;
+};
+
+}  // namespace trk_bridge::test

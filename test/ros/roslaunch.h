@@ -1,0 +1,58 @@
+// A launch file as its user starts it.
+#pragma once
+
+#include <csignal>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "program.h"
+
+namespace trk_bridge::test {
+
+/// roslaunch and all its nodes, ended with this object at the latest.
+class Roslaunch {
+ public:
+  explicit Roslaunch(const std::vector<std::string>& arguments) : roslaunch_(words(arguments)) {}
+  /// A launch file of this package.
+  Roslaunch(const std::string& file, std::vector<std::string> arguments)
+      : Roslaunch(in_package(file, std::move(arguments))) {}
+  ~Roslaunch() {
+    if (!ended_) (void)end();
+  }
+  Roslaunch(const Roslaunch&) = delete;
+  Roslaunch& operator=(const Roslaunch&) = delete;
+
+  /// Ends it as Ctrl-C does and returns what it said.
+  std::string end() {
+    roslaunch_.signal(SIGINT);
+    return wait();
+  }
+  /// Waits until it ends by itself and returns what it said.
+  std::string wait() {
+    if (ended_) return said_;
+    ended_ = true;
+    said_ = roslaunch_.rest_of_out() + roslaunch_.rest_of_err();
+    EXPECT_EQ(roslaunch_.wait(), 0) << said_;
+    return said_;
+  }
+
+ private:
+  static std::vector<std::string> words(const std::vector<std::string>& arguments) {
+    std::vector<std::string> all{"/usr/bin/env", "roslaunch"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return all;
+  }
+  static std::vector<std::string> in_package(const std::string& file, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"trk_bridge", file});
+    return arguments;
+  }
+
+  Program roslaunch_;
+  std::string said_;
+  bool ended_ = false;
+};
+
+}  // namespace trk_bridge::test
