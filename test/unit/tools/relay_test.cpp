@@ -35,9 +35,9 @@ class RelayTest : public testing::Test {
     add(test::endpoint_of(gate, transport::Blocking::never, form));
   }
   void add_file(const std::string& path) { add(endpoints::parse_sink("file:" + path).value()); }
-  cli::ExitCode run(const transport::SinkForm& defaults = {}) {
+  cli::ExitCode run(const transport::SinkForm& defaults = {}, bool source_can_wait = false) {
     feed.put(Event::ended);
-    FanOut sinks("trk", err);
+    FanOut sinks("trk", err, source_can_wait);
     for (const auto& endpoint : to) sinks.add(endpoint, defaults);
     return relay(*feed.source(), sinks, err);
   }
@@ -65,10 +65,10 @@ TEST_F(RelayTest, EveryWorkedCaseBecomesTheCanonicalCameraInEuler) {
   }
   add_gate();
   EXPECT_EQ(run(form_of(wire::euler)), cli::exit_good) << err.str();
-  const auto records = gate.records();
-  ASSERT_EQ(records.size(), 2 * cases.size());
+  const auto sent = gate.params();
+  ASSERT_EQ(sent.size(), cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const auto& params = std::get<wire::CameraParams>(records[2 * i + 1]);
+    const auto& params = sent[i];
     const auto& expected = cases[i]["expect"];
     const auto near = [&](double found, double wanted) {
       EXPECT_NEAR(found, wanted, 1e-9 * std::max(1.0, std::abs(wanted))) << "case " << i;
@@ -246,6 +246,21 @@ TEST_F(RelayTest, ARecordingThatCannotKeepUpIsAFailure) {
   EXPECT_THAT(text, HasSubstr(lost));
   EXPECT_EQ(text.find(lost), text.rfind(lost));
   EXPECT_THAT(text, HasSubstr("slow disk: not passed on: " + std::to_string(sets - slow.count()) + " records"));
+}
+
+TEST_F(RelayTest, ATakeThatIsPlayedAsFastAsPossibleLosesNothing) {
+  constexpr std::uint64_t sets = 12'000;
+  test::Gate slow;
+  add(test::endpoint_of(slow, transport::Blocking::storage));
+  add(test::endpoint_of(slow, transport::Blocking::attaching));
+  for (std::uint64_t counter = 1; counter <= sets; ++counter) feed.put(test::params(counter));
+  std::thread watch([&] {
+    EXPECT_TRUE(slow.is_blocking());
+    slow.open();
+  });
+  EXPECT_EQ(run({}, true), cli::exit_good) << err.str();
+  watch.join();
+  EXPECT_EQ(slow.count(), 2 * sets);
 }
 
 TEST_F(RelayTest, SetsThatNewerOnesReplaceAreReportedAndNoFailure) {
