@@ -14,6 +14,7 @@
 #include "receiver.h"
 #include "nodes/ros_to_trk.h"
 #include "temporary_directory.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/ros/messages.h"
 #include "file/take.h"
 
@@ -158,7 +159,7 @@ TEST_F(FromParams, APresetIsTheReceiversFormatAndLeavesOutAnIdThatItCannotTake) 
   publish(params(1, 7));
   ASSERT_TRUE(eventually([&] { return receiver.is_at(1); }));
   EXPECT_EQ(receiver.params.back().id, 0u);
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "id 5 is left out"));
+  EXPECT_TRUE(diagnostics.tells(status_name(receiver.url()), DiagnosticStatus::OK, "id 5 is left out"));
 }
 
 TEST_F(FromParams, OrderAndCountersOfABurstAreKept) {
@@ -174,7 +175,7 @@ TEST_F(FromParams, WhatIsNoCameraIsNotSent) {
   auto bad = params(1);
   bad.k1 = std::nan("");
   publish(bad);
-  EXPECT_TRUE(diagnostics.becomes(status_name(), "dropped", "1"));
+  EXPECT_TRUE(diagnostics.becomes(status_name(receiver.url()), "dropped", "1"));
   publish(params(2));
   ASSERT_TRUE(eventually([&] { return receiver.is_at(2); }));
   EXPECT_EQ(receiver.params.size(), 1u);
