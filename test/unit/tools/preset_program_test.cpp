@@ -125,6 +125,9 @@ TEST(TrkRelay, APresetAndFormatWordsExcludeEachOther) {
 TEST(TrkRelay, AnIdForAReceiverWithoutIdsIsRefused) {
   EXPECT_THAT(refusal({"--preset", "unreal_trackmen", "--id", "3"}),
               HasSubstr("--id 3: the preset unreal_trackmen sends no id; only 0 is allowed"));
+  EXPECT_THAT(
+      refusal({"udp://127.0.0.1:10?id=3", "--preset", "unreal_trackmen"}),
+      HasSubstr("endpoint \"udp://127.0.0.1:10?id=3\": id 3 with a preset that sends no id; only 0 is allowed"));
 }
 
 }  // namespace
