@@ -8,15 +8,19 @@
 #include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "bag_take.h"
-#include "bag_timing.h"
-#include "ros/trk_to_ros_parameters.h"
-#include "ros/camera_pipeline.h"
-#include "trk_bridge/ros/frames.h"
-#include "ros/stamper.h"
+#include "base/time_text.h"
+#include "bridge/camera_pipeline.h"
+#include "bridge/stamper.h"
+#include "cli/number_text.h"
+#include "convert.h"
 #include "file/part_file.h"
-#include "trk_bridge/transport/source.h"
 #include "file/take.h"
+#include "ros/camera_messages.h"
+#include "ros/trk_to_ros_parameters.h"
+#include "timing.h"
+#include "trk_bridge/ros/frames.h"
+#include "trk_bridge/ros/messages.h"
+#include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::bag {
 namespace {
@@ -43,15 +47,47 @@ ros1::CameraFrames frames_of(const TakeToBagOptions& options) {
   return frames;
 }
 
-ros1::CameraPipeline pipeline_of(const TakeToBagOptions& options) {
+bridge::CameraPipeline pipeline_of(const TakeToBagOptions& options) {
   (void)sound(ros1::parse_camera_name(options.camera), "--camera", options.camera);
   if (!ros1::field_rate_range.contains(options.field_rate)) {
     throw BagError("--field-rate = " + ros1::shown(options.field_rate) + ": must be " + ros1::field_rate_range.text());
   }
-  ros1::CameraOptions camera;
+  bridge::CameraOptions camera;
   camera.format = options.format;
-  return {camera, frames_of(options), options.field_rate};
+  return {camera, options.field_rate};
 }
+
+/// A take's camera as trk_to_ros publishes it.
+class TakeCamera {
+ public:
+  explicit TakeCamera(const TakeToBagOptions& options)
+      : name_(options.camera), frames_(frames_of(options)), pipeline_(pipeline_of(options)), messages_(frames_) {
+    sample_.sender.kind = transport::SenderKind::file;
+  }
+
+  std::string topic(const char* last) const { return topic_of(name_, last); }
+  geometry_msgs::TransformStamped optical_transform(std::int64_t stamp) const {
+    return ros1::optical_transform(frames_, ros1::to_time(stamp));
+  }
+
+  /// Afterwards messages() has what is in the update.
+  bridge::CameraUpdate process(const wire::Record& record, std::int64_t stamp) {
+    sample_.record = record;
+    sample_.arrival = stamp;
+    const auto update = pipeline_.process(sample_, stamp);
+    messages_.make(update);
+    return update;
+  }
+  const ros1::CameraMessages& messages() const noexcept { return messages_; }
+  const bridge::CameraStatistics& statistics() const noexcept { return pipeline_.statistics(); }
+
+ private:
+  const std::string name_;
+  const ros1::CameraFrames frames_;
+  transport::Sample sample_;
+  bridge::CameraPipeline pipeline_;
+  ros1::CameraMessages messages_;
+};
 
 /// When the fields of a take were.
 class Schedule {
@@ -59,7 +95,7 @@ class Schedule {
   Schedule(const base::TimeCode& code, const TakeToBagOptions& options)
       : rate_(options.field_rate), code_(options.start ? base::TimeCode{} : code) {
     const auto of_code = base::nanoseconds_of(code, rate_, 0);
-    if (!of_code && !options.start) throw BagError(of_code.error() + "; say --field-rate HZ, or --start TIME");
+    if (!of_code && !options.start) throw BagError(of_code.error() + "; set --field-rate HZ, or --start TIME");
     base_ = options.start.value_or(options.midnight);
     if (of_code) zero_ = options.start ? base_ - *of_code : base_;
   }
@@ -75,13 +111,13 @@ class Schedule {
   std::optional<std::int64_t> zero_;
 };
 
-/// Writes messages as a recorder would have got them from trk_to_ros. Connection headers are made here, for the order
-/// in which a recorder meets publishers is chance.
+/// Writes messages as a recorder would have got them from trk_to_ros. Connection headers are made here, because a
+/// recorder meets publishers in a random order.
 class Recording {
  public:
   Recording(const std::string& path, const TakeToBagOptions& options, std::optional<std::int64_t> zero)
       : caller_("/" + options.camera + "/trk_to_ros") {
-    extra_[field_rate_key] = rate_text(options.field_rate);
+    extra_[field_rate_key] = cli::number_text(options.field_rate);
     if (zero) extra_[time_code_zero_key] = std::to_string(*zero);
     bag_.open(path, rosbag::bagmode::Write);
     bag_.setCompression(options.compression == "bz2"   ? rosbag::compression::BZ2
@@ -119,16 +155,7 @@ class Recording {
   rosbag::Bag bag_;
 };
 
-geometry_msgs::TransformStamped optical_transform(const ros1::CameraFrames& frames, ::ros::Time stamp) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = stamp;
-  transform.header.frame_id = frames.camera;
-  transform.child_frame_id = frames.optical;
-  transform.transform = ros1::to_transform(ros1::camera_T_optical());
-  return transform;
-}
-
-void tell(const ros1::CameraStatistics& statistics, std::ostream& err) {
+void report(const bridge::CameraStatistics& statistics, std::ostream& err) {
   const auto line = [&err](std::uint64_t times, const std::string& what) {
     if (times > 0) err << "trk: " << times << " fields " << what << '\n';
   };
@@ -143,30 +170,24 @@ void tell(const ros1::CameraStatistics& statistics, std::ostream& err) {
   }
 }
 
-void record(const file::Take& take, const Schedule& schedule, const TakeToBagOptions& options,
-            ros1::CameraPipeline& pipeline, Recording& recording, cli::LongRun& run) {
-  const std::string topics = "/" + options.camera + "/";
-  const auto begin = ros1::to_time(schedule.at(0));
-  const auto end = ros1::to_time(schedule.at(take.params.size()));
-  if (!begin || !end) throw BagError("its fields are outside of 1970 to 2106, which is what ROS can tell");
-
-  recording.write("/tf_static", optical_transform(frames_of(options), *begin), /*is_latched=*/true);
-  transport::Sample sample;
-  sample.sender.kind = transport::SenderKind::file;
-  sample.arrival = schedule.at(0);
-  sample.record = take.constants;
-  if (pipeline.process(sample, sample.arrival).constants) {
-    recording.write(topics + "constants", *begin, pipeline.constants(), /*is_latched=*/true);
+void record(const file::Take& take, const Schedule& schedule, TakeCamera& camera, Recording& recording,
+            cli::LongRun& run) {
+  const std::int64_t begin = schedule.at(0);
+  if (!bridge::can_be_stamp(begin) || !bridge::can_be_stamp(schedule.at(take.params.size()))) {
+    throw BagError("its fields are outside of 1970 to 2106, the range of ROS time");
+  }
+  const auto& messages = camera.messages();
+  recording.write("/tf_static", camera.optical_transform(begin), /*is_latched=*/true);
+  if (camera.process(take.constants, begin).constants) {
+    recording.write(camera.topic("constants"), ros1::to_time(begin), messages.constants(), /*is_latched=*/true);
   }
   for (std::size_t i = 0; i < take.params.size(); ++i) {
     run.at(static_cast<double>(i) / static_cast<double>(take.params.size()));
-    sample.arrival = schedule.at(i);
-    sample.record = take.params[i];
-    const auto made = pipeline.process(sample, sample.arrival);
-    const auto stamp = pipeline.params().header.stamp;
-    if (made.transform) recording.write("/tf", pipeline.transform());
-    if (made.params) recording.write(topics + "params", stamp, pipeline.params());
-    if (made.camera_info) recording.write(topics + "camera_info", stamp, pipeline.camera_info());
+    const auto update = camera.process(take.params[i], schedule.at(i));
+    const auto stamp = ros1::to_time(update.stamp);
+    if (update.pose) recording.write("/tf", messages.transform());
+    if (update.params) recording.write(camera.topic("params"), stamp, messages.params());
+    if (update.calibration) recording.write(camera.topic("camera_info"), stamp, messages.camera_info());
   }
 }
 
@@ -176,13 +197,13 @@ void bag_of_take(const std::string& take_path, const std::string& bag_path, cons
                  cli::LongRun& run, std::ostream& err) {
   const file::Take take = file::read_take(take_path);
   try {
-    ros1::CameraPipeline pipeline = pipeline_of(options);
+    TakeCamera camera(options);
     const Schedule schedule(take.time_code, options);
     file::PartFile file(bag_path, options.overwrite);
     run.begin("writing " + bag_path);
     try {
       Recording recording(file.part(), options, schedule.zero());
-      record(take, schedule, options, pipeline, recording, run);
+      record(take, schedule, camera, recording, run);
       recording.close();
     } catch (...) {
       file.discard();
@@ -193,10 +214,10 @@ void bag_of_take(const std::string& take_path, const std::string& bag_path, cons
       throw transport::TransportError(bag_path +
                                       ": cannot be written: " + std::system_category().message(published.error()));
     }
-    tell(pipeline.statistics(), err);
-    err << "trk: " << bag_path << ": " << pipeline.statistics().sequence.accepted << " fields of camera "
-        << options.camera << ", from " << stamp_text(schedule.at(0)) << " at " << rate_text(options.field_rate)
-        << " fields a second\n";
+    report(camera.statistics(), err);
+    err << "trk: " << bag_path << ": " << camera.statistics().sequence.accepted << " fields of camera "
+        << options.camera << ", from " << base::seconds_text(schedule.at(0)) << " at "
+        << cli::number_text(options.field_rate) << " fields a second\n";
   } catch (const BagError& error) {
     throw BagError(take_path + ": " + error.what());
   } catch (const rosbag::BagException& error) {

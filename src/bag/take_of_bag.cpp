@@ -1,10 +1,11 @@
 #include <ostream>
 
-#include "bag_take.h"
-#include "bag_timing.h"
+#include "cli/number_text.h"
+#include "fields.h"
 #include "file/part_file.h"
-#include "trk_bridge/transport/source.h"
 #include "file/take.h"
+#include "timing.h"
+#include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::bag {
 namespace {
@@ -14,7 +15,7 @@ void check(const tl::expected<void, transport::SinkFault>& written, const file::
   throw transport::TransportError(writer.path() + ": cannot be written: " + transport::describe(written.error()));
 }
 
-void write(const BagFields& fields, const base::TimeCode& code, const std::string& path, bool overwrite,
+void write(const Fields& fields, const base::TimeCode& code, const std::string& path, bool overwrite,
            cli::LongRun& run) {
   file::TakeWriter writer(path, code, overwrite);
   run.begin("writing " + path);
@@ -39,24 +40,23 @@ void take_of_bag(const std::string& bag_path, const std::string& take_path, cons
                  cli::LongRun& run, std::ostream& err) {
   file::PartFile::check_target(take_path, options.overwrite);
   try {
-    BagFile bag(bag_path, run);
+    Reader bag(bag_path, run);
     const auto camera = choose_camera(bag.connections(), options.camera, options.input);
-    const bool by_params = camera.input == BagInput::params;
-    const auto fields = by_params ? fields_from_params(bag, camera.name, options, run, err)
-                                  : fields_from_tf(bag, camera.name, options, run, err);
+    const bool from_params = camera.input == Input::params;
+    const auto fields = from_params ? fields_from_params(bag, camera.name, options, run, err)
+                                    : fields_from_tf(bag, camera.name, options, run, err);
     run.end();
     if (!bag.damage().empty()) err << "trk: " << bag_path << " is cut short: " << bag.damage() << '\n';
 
-    const std::string topic = topic_of(camera.name, by_params ? "params" : "camera_info");
-    const auto clockwork = clockwork_of(bag.connections(), topic);
-    const double rate = field_rate_of(options.field_rate, clockwork.field_rate,
-                                      measured_rate(fields.params, fields.stamps, fields.has_counters), err);
-    const auto code = time_code_of(fields.stamps.front(), rate, clockwork.time_code_zero);
+    const std::string topic = topic_of(camera.name, from_params ? "params" : "camera_info");
+    const auto timing = recorded_timing(bag.connections(), topic);
+    const double rate = field_rate_of(options.field_rate, timing.field_rate, measured_rate(fields), err);
+    const auto code = time_code_of(fields.stamps.front(), rate, timing.time_code_zero);
     if (!code) throw BagError(code.error());
-    tell_gaps(fields.params, fields.stamps, fields.has_counters, rate, err);
+    report_gaps(fields, rate, err);
     write(fields, *code, take_path, options.overwrite, run);
     err << "trk: " << take_path << ": " << fields.params.size() << " fields of " << topic
-        << (by_params ? "" : " and tf") << ", from " << base::to_string(*code) << " at " << rate_text(rate)
+        << (from_params ? "" : " and tf") << ", from " << base::to_string(*code) << " at " << cli::number_text(rate)
         << " fields a second\n";
   } catch (const BagError& error) {
     throw BagError(bag_path + ": " + error.what());

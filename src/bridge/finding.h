@@ -32,6 +32,7 @@ enum class Condition : std::uint8_t {
   unstampable,
   no_constants,
   bad_constants,
+  pose_only,
   withheld,
   no_camera_info,
   no_markers,
@@ -46,6 +47,8 @@ enum class Condition : std::uint8_t {
   bad_lens,
   sink_fails,
   sink_loses,
+  sink_too_slow,
+  queue_drops,
 };
 
 /// A condition that holds, and a line for a person.

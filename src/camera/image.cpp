@@ -30,6 +30,15 @@ Raster raster_of(const wire::CameraConstants& c) noexcept {
   return raster;
 }
 
+Result<double> field_of_view(double image_distance, double side) noexcept {
+  if (!std::isfinite(image_distance)) return tl::unexpected(CameraReason::not_finite);
+  if (!(image_distance > 0) || !(side > 0)) return tl::unexpected(CameraReason::bad_field_of_view);
+  const double angle = 2 * std::atan2(side / 2, image_distance) * degrees_per_radian;
+  // An image distance far from any lens can round to 0 or 180 degrees, which nobody could read back.
+  if (!(angle > 0 && angle < 180)) return tl::unexpected(CameraReason::bad_field_of_view);
+  return angle;
+}
+
 Result<Eigen::Vector2d> project(const Lens& lens, const Eigen::Vector3d& point) noexcept {
   if (!(point.y() > 0)) return tl::unexpected(CameraReason::behind_camera);
   const Eigen::Vector2d chip =

@@ -2,6 +2,7 @@
 
 #include "numeric.h"
 #include "params.h"
+#include "trk_bridge/camera/image.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::camera {
@@ -81,13 +82,10 @@ Result<double> image_distance_of(double fov, const FovTerms& terms) noexcept {
 }
 
 Result<double> fov_of(double distance, const FovTerms& terms) noexcept {
+  if (terms.side > 0) return field_of_view(distance, terms.side);
   if (!std::isfinite(distance)) return tl::unexpected(CameraReason::not_finite);
   if (!(distance > 0)) return tl::unexpected(CameraReason::bad_field_of_view);
-  if (!(terms.side > 0)) return distance;
-  const double angle = 2 * std::atan2(terms.side / 2, distance) * degrees_per_radian;
-  // An image distance far from any lens can round to 0 or 180 degrees, which nobody could read back.
-  if (!(angle > 0 && angle < 180)) return tl::unexpected(CameraReason::bad_field_of_view);
-  return angle;
+  return distance;
 }
 
 bool operator==(const ShiftTerms& a, const ShiftTerms& b) noexcept {

@@ -19,11 +19,10 @@ transport::SinkEndpoint sink_from(const std::string& url) {
   return *std::move(endpoint);
 }
 
-std::uint32_t format_from(const std::string& words) {
+std::uint32_t format_from(const std::string& words, const std::string& option) {
   const auto format = wire::format_from_words(words);
-  if (!format) throw CLI::ValidationError("--format: " + format.error());
-  if (const auto sound = wire::check_writable(*format); !sound)
-    throw CLI::ValidationError("--format: " + sound.error());
+  if (!format) throw CLI::ValidationError(option + format.error());
+  if (const auto sound = wire::check_writable(*format); !sound) throw CLI::ValidationError(option + sound.error());
   return *format;
 }
 

@@ -7,8 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "exit_code.h"
 #include "endpoints/presets.h"
+#include "exit_code.h"
 #include "trk_bridge/endpoints/endpoints.h"
 
 namespace trk_bridge::cli {
@@ -20,8 +20,8 @@ inline constexpr const char* endpoints_help =
 /// All throw CLI::ValidationError with the parser's text.
 transport::SourceEndpoint source_from(const std::string& url);
 transport::SinkEndpoint sink_from(const std::string& url);
-/// A format that records may be made in.
-std::uint32_t format_from(const std::string& words);
+/// A format that records may be made in. The error begins with `option`.
+std::uint32_t format_from(const std::string& words, const std::string& option = "--format: ");
 /// The preset of that name.
 endpoints::Preset preset_from(const std::string& name);
 

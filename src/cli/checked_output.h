@@ -1,4 +1,4 @@
-// Lines for whoever reads a program's output, and what becomes of the program when that fails.
+// Lines on a program's output, and how the program ends when they cannot be written.
 #pragma once
 
 #include <iosfwd>
@@ -8,14 +8,14 @@
 
 namespace trk_bridge::cli {
 
-/// Remembers why the first line that could not be written was not.
+/// Remembers the error of the first line that could not be written.
 class CheckedOutput {
  public:
   explicit CheckedOutput(std::ostream& out) : out_(out) {}
 
-  /// A line and its newline; false when that failed, now or before.
+  /// Writes the text and a newline; false when that failed, now or before.
   bool line(std::string_view text, bool flush);
-  /// Writes what is left and tells `err` of an error. That the reader went away is an ordinary end.
+  /// Writes what is left, and an error to `err`. That the reader closed the pipe is an ordinary end.
   ExitCode finish(std::ostream& err);
 
  private:

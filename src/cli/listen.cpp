@@ -1,7 +1,7 @@
 #include "listen.h"
 
-#include <algorithm>
 #include <chrono>
+#include <ostream>
 
 namespace trk_bridge::cli {
 namespace {
@@ -10,7 +10,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds for_ever{-1};
-// About three years: what is longer is as good as without end, and within what the clock can tell.
+// About three years: what is longer is as good as without end, and within the range of the clock.
 constexpr double longest_limit = 1e8;
 
 }  // namespace
@@ -41,6 +41,13 @@ Ending listen(transport::Source& source, Listener& listener, std::optional<doubl
         return Ending::failed;
     }
   }
+}
+
+ExitCode report_end(const Tally& tally, const transport::SourceStatistics& source, Ending ending, std::ostream& err) {
+  tally.summarise(source, err);
+  if (ending != Ending::failed) return exit_good;
+  err << "trk: error: " << source.error << '\n';
+  return exit_failed;
 }
 
 }  // namespace trk_bridge::cli

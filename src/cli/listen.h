@@ -1,9 +1,12 @@
-// The loop in which a program takes records from a source.
+// The loop in which a program receives records from a source.
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 
+#include "exit_code.h"
+#include "tally.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::cli {
@@ -14,12 +17,12 @@ class Listener {
   virtual ~Listener() = default;
   /// Whether to go on.
   virtual bool on_sample(const transport::Sample&) = 0;
-  /// One record was not sound.
+  /// One record was malformed.
   virtual void on_malformed(const transport::Reception&) = 0;
 };
 
 enum class Ending : std::uint8_t {
-  enough,   ///< the listener or the time limit said so
+  enough,   ///< the listener wants no more, or the time limit has passed
   stopped,  ///< by Source::stop
   ended,    ///< the source has no more
   failed,   ///< the source cannot go on
@@ -27,5 +30,8 @@ enum class Ending : std::uint8_t {
 
 /// Until the source ends, is stopped or fails, the listener has enough, or `seconds` (wall time) have passed.
 Ending listen(transport::Source&, Listener&, std::optional<double> seconds = std::nullopt);
+
+/// The end of a program that has listened: the summary on `err`, and then the source's error where it failed.
+ExitCode report_end(const Tally&, const transport::SourceStatistics&, Ending, std::ostream& err);
 
 }  // namespace trk_bridge::cli

@@ -1,4 +1,4 @@
-// What a long run tells its user, and how the user ends it.
+// Progress of a long run, and how a signal ends it.
 #pragma once
 
 #include <chrono>
@@ -27,7 +27,7 @@ class LongRun {
   void begin(std::string what);
   /// From 0 to 1. Throws Interrupted when a signal came.
   void at(double fraction);
-  /// Takes the line of a terminal away, so that others can be written.
+  /// Removes the line from a terminal, so that others can be written.
   void end();
 
  private:

@@ -1,4 +1,4 @@
-// What came, counted by camera and sender, for the summary at a program's end.
+// Counts of received records by camera and sender, for the summary at the end of a program.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace trk_bridge::cli {
 
-/// Not synchronised. Allocates only for a camera that it has not met.
+/// Not synchronised. Allocates only for a new camera.
 class Tally {
  public:
   /// The verdict on the counter; none for constants, and for cameras beyond `most_cameras`.
@@ -32,7 +32,7 @@ class Tally {
   /// One line about the source, then one a camera: `trk: id 7 from 192.0.2.7:5000: 100 accepted, 3 lost, …`.
   void summarise(const transport::SourceStatistics&, std::ostream&) const;
 
-  /// Cameras whose counters are judged; of any more, as a port scan could feign, records are only counted.
+  /// Cameras whose counters are judged; of any more, as a port scan could produce, records are only counted.
   static constexpr std::size_t most_cameras = 256;
 
  private:

@@ -9,7 +9,7 @@
 #include <ros/init.h>
 
 #include "crane_motion.h"
-#include "nodes/node_parameters.h"
+#include "nodes/node.h"
 #include "ros/parameter_reader.h"
 #include "trk_bridge/ros/messages.h"
 #include "trk_bridge/wire/format.h"

@@ -9,7 +9,7 @@
 #include <visualization_msgs/MarkerArray.h>
 #include <opencv2/imgproc.hpp>
 
-#include "nodes/node_parameters.h"
+#include "nodes/node.h"
 #include "test_card_markers.h"
 #include "test_card_parameters.h"
 #include "test_card_picture.h"

@@ -1,4 +1,4 @@
-#include "nodes/node_main.h"
+#include "nodes/node.h"
 #include "test_card.h"
 
 int main(int argc, char** argv) {

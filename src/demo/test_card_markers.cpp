@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "ros/marker_look.h"
+#include "ros/markers.h"
 
 namespace trk_bridge::demo {
 namespace {

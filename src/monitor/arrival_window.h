@@ -18,7 +18,7 @@ struct Jitter {
 /// The arrivals of one camera's new records within the last ten seconds. Not synchronised.
 class ArrivalWindow {
  public:
-  /// `arrival` in nanoseconds; one before the last, as after a clock was set back, begins the window anew.
+  /// `arrival` in nanoseconds; one before the last, as after a clock was set back, starts the window again.
   void add(std::int64_t arrival);
 
   /// Records a second; none before two of them, or when all came at once.

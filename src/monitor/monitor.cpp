@@ -6,13 +6,13 @@
 
 #include <unistd.h>
 
+#include "base/time_text.h"
 #include "cli/checked_output.h"
 #include "cli/listen.h"
-#include "monitor_model.h"
-#include "monitor_view.h"
-#include "base/time_text.h"
-#include "screen.h"
 #include "cli/stop_signals.h"
+#include "model.h"
+#include "screen.h"
+#include "view.h"
 
 namespace trk_bridge::monitor {
 namespace {
@@ -25,8 +25,8 @@ constexpr double lines_period = 1.0;   // s
 /// The model, fed from a source for as long as the user wants.
 class Watch final : public cli::Listener {
  public:
-  Watch(transport::Source& source, const MonitorOptions& options)
-      : source_(source), options_(options), begin_(Clock::now()) {}
+  Watch(transport::Source& source, std::optional<double> seconds)
+      : source_(source), seconds_(seconds), begin_(Clock::now()) {}
 
   bool on_sample(const transport::Sample& sample) override {
     model_.add(sample, Clock::now());
@@ -42,24 +42,20 @@ class Watch final : public cli::Listener {
   /// To the end of the time limit, in seconds.
   double left() const {
     const double passed = std::chrono::duration<double>(Clock::now() - begin_).count();
-    return options_.seconds.value_or(passed + 1e9) - passed;
+    return seconds_.value_or(passed + 1e9) - passed;
   }
   bool has_ended() const { return ending_ == cli::Ending::ended; }
-  MonitorState state() const { return model_.state(Clock::now(), source_); }
+  State state() const { return model_.state(Clock::now(), source_); }
 
   cli::ExitCode finish(std::ostream& err) const {
-    const auto statistics = source_.statistics();
-    model_.tally().summarise(statistics, err);
-    if (ending_ != cli::Ending::failed) return cli::exit_good;
-    err << "trk: error: " << statistics.error << '\n';
-    return cli::exit_failed;
+    return cli::report_end(model_.tally(), source_.statistics(), ending_, err);
   }
 
  private:
   transport::Source& source_;
-  const MonitorOptions options_;
+  const std::optional<double> seconds_;
   const Clock::time_point begin_;
-  MonitorModel model_;
+  Model model_;
   cli::Ending ending_ = cli::Ending::enough;
 };
 
@@ -85,15 +81,15 @@ void watch_on_screen(Watch& watch) {
 
 }  // namespace
 
-cli::ExitCode monitor_on_screen(transport::Source& source, const MonitorOptions& options, std::ostream& err) {
-  Watch watch(source, options);
+cli::ExitCode show_on_screen(transport::Source& source, std::optional<double> seconds, std::ostream& err) {
+  Watch watch(source, seconds);
   watch_on_screen(watch);
   return watch.finish(err);
 }
 
-cli::ExitCode monitor_in_lines(transport::Source& source, const MonitorOptions& options, std::ostream& out,
-                          std::ostream& err) {
-  Watch watch(source, options);
+cli::ExitCode show_in_lines(transport::Source& source, std::optional<double> seconds, std::ostream& out,
+                            std::ostream& err) {
+  Watch watch(source, seconds);
   cli::CheckedOutput lines(out);
   bool is_wanted = true;
   for (bool has_more = true; has_more && is_wanted;) {

@@ -12,7 +12,7 @@ namespace trk_bridge::monitor {
 using PoseNumbers = std::array<double, 6>;
 
 enum class Motion : std::uint8_t {
-  unknown,  ///< not enough poses within the window to tell
+  unknown,  ///< not enough poses within the window
   moving,
   still,
 };
@@ -25,12 +25,12 @@ struct Rest {
 /// The poses of one camera within the last three seconds. Not synchronised.
 ///
 /// The camera stands still when, of each number, the range is at most `most_range` and the means of the older and the
-/// newer half of the window are at most `most_drift` apart. The first lets the noise of any tracker through, the second
-/// tells a slow move from it, whose halves differ by half its way while those of noise agree. Judged from
-/// twenty poses on, when they span nine tenths of the window.
+/// newer half of the window are at most `most_drift` apart. The range lets the noise of any tracker through; the means
+/// show a slow move, whose halves differ by half its way while those of noise agree. Needs twenty poses that span nine
+/// tenths of the window.
 class RestWindow {
  public:
-  /// `arrival` in nanoseconds; one before the last begins the window anew.
+  /// `arrival` in nanoseconds; one before the last starts the window again.
   void add(std::int64_t arrival, const PoseNumbers&);
   Rest judge() const;
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "monitor_view.h"
+#include "view.h"
 
 namespace trk_bridge::monitor {
 

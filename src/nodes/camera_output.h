@@ -4,15 +4,17 @@
 #include <cstdint>
 #include <optional>
 
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include "bridge/camera_pipeline.h"
+#include "bridge/diagnostics.h"
 #include "finding_log.h"
+#include "ros/camera_messages.h"
+#include "ros/markers.h"
 #include "ros/trk_to_ros_parameters.h"
-#include "ros/camera_markers.h"
-#include "ros/camera_pipeline.h"
-#include "ros/diagnostics.h"
 #include "trk_bridge/base/snapshot.h"
 
 namespace trk_bridge::nodes {
@@ -22,7 +24,7 @@ class CameraOutput {
  public:
   /// Advertises `params`, `constants` and `camera_info` in the namespace of `node`, and publishes the parameter's
   /// constants where there are any. `markers` is a topic that cameras share; it counts where publish_markers is set.
-  CameraOutput(::ros::NodeHandle node, const trk_bridge::ros1::CameraParameters&, double field_rate, int queue_size,
+  CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&, double field_rate, int queue_size,
                ::ros::Publisher markers);
 
   bool wants(const wire::Record& record) const noexcept { return pipeline_.wants(record); }
@@ -31,22 +33,24 @@ class CameraOutput {
 
   /// Fills a status. `report` is of this moment but for the camera's part, which is added here. Findings of a kind that
   /// was not met before go to the log, too.
-  void describe(trk_bridge::ros1::CameraReport report, diagnostic_updater::DiagnosticStatusWrapper& status);
+  void describe(bridge::CameraReport report, diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  const trk_bridge::ros1::CameraParameters& parameters() const noexcept { return parameters_; }
+  const ros1::CameraParameters& parameters() const noexcept { return parameters_; }
 
  private:
-  void publish_markers(const trk_bridge::ros1::PipelineOutput&);
+  void publish(const bridge::CameraUpdate&);
+  void publish_markers(const bridge::CameraUpdate&);
 
-  const trk_bridge::ros1::CameraParameters parameters_;
-  trk_bridge::ros1::CameraPipeline pipeline_;
-  std::optional<trk_bridge::ros1::CameraMarkers> markers_;
+  const ros1::CameraParameters parameters_;
+  bridge::CameraPipeline pipeline_;
+  ros1::CameraMessages messages_;
+  std::optional<ros1::CameraMarkers> markers_;
   double field_rate_;
   ::ros::Publisher params_, constants_, camera_info_, marker_topic_;
   tf2_ros::TransformBroadcaster transforms_;
-  base::Snapshot<trk_bridge::ros1::CameraStatistics> statistics_;
-  base::Snapshot<trk_bridge::ros1::MarkerStatistics> marker_statistics_;
-  trk_bridge::ros1::CameraReport last_report_;
+  base::Snapshot<bridge::CameraStatistics> statistics_;
+  base::Snapshot<bridge::MarkerStatistics> marker_statistics_;
+  bridge::CameraReport last_report_;
   FindingLog log_;
 };
 

@@ -6,18 +6,18 @@
 
 namespace trk_bridge::nodes {
 
-using diagnostic_msgs::DiagnosticStatus;
+using bridge::Level;
 
-void FindingLog::tell(const std::vector<trk_bridge::ros1::Finding>& found) {
+void FindingLog::tell(const std::vector<bridge::Finding>& found) {
   for (const auto& finding : found) {
     if (std::find(told_.begin(), told_.end(), finding.condition) != told_.end()) continue;
     told_.push_back(finding.condition);
     const std::string line = subject_ + ": " + finding.text;
     switch (finding.level) {
-      case DiagnosticStatus::ERROR:
+      case Level::error:
         ROS_ERROR_STREAM(line);
         break;
-      case DiagnosticStatus::WARN:
+      case Level::warn:
         ROS_WARN_STREAM(line << " (told once, then counted in the diagnostics)");
         break;
       default:

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/finding.h"
+#include "bridge/finding.h"
 
 namespace trk_bridge::nodes {
 
@@ -15,11 +15,11 @@ class FindingLog {
   explicit FindingLog(std::string subject) : subject_(std::move(subject)) {}
 
   /// Logs findings of a kind that was not met before.
-  void tell(const std::vector<trk_bridge::ros1::Finding>&);
+  void tell(const std::vector<bridge::Finding>&);
 
  private:
   std::string subject_;
-  std::vector<trk_bridge::ros1::Condition> told_;
+  std::vector<bridge::Condition> told_;
 };
 
 }  // namespace trk_bridge::nodes

@@ -1,16 +1,13 @@
 #include "params_input.h"
 
 #include "base/clock.h"
+#include "trk_bridge/ros/messages.h"
 
 namespace trk_bridge::nodes {
 
-ParamsInput::ParamsInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParameters& parameters,
-                         SetWriter write)
-    : write_(std::move(write)),
-      form_(parameters.form),
-      converter_(parameters.form, parameters.constants),
-      log_(parameters.name) {
-  statistics_.store(converter_.statistics());
+ParamsInput::ParamsInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& parameters, SetWriter write)
+    : write_(std::move(write)), sets_(parameters.constants), log_(parameters.name) {
+  statistics_.store(sets_.statistics());
   last_report_.time = base::steady_now();
   const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
   const auto no_delay = ::ros::TransportHints().tcpNoDelay();
@@ -23,22 +20,23 @@ ParamsInput::ParamsInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTr
 }
 
 void ParamsInput::take(const trk_bridge::CameraConstants& message) {
-  converter_.take(message);
-  statistics_.store(converter_.statistics());
+  sets_.take(ros1::from_msg(message));
+  statistics_.store(sets_.statistics());
 }
 
 void ParamsInput::take(const trk_bridge::CameraParams& message) {
-  const auto outgoing = converter_.take(message, base::steady_now());
-  if (outgoing.params) write_(outgoing);
-  statistics_.store(converter_.statistics());
+  write_(sets_.take(ros1::from_msg(message), base::steady_now()));
+  statistics_.store(sets_.statistics());
 }
 
-void ParamsInput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  trk_bridge::ros1::ParamsReport report{statistics_.load(), params_.getTopic(), base::steady_now()};
-  const auto found = trk_bridge::ros1::findings(report, last_report_);
-  trk_bridge::ros1::fill(status, found, report, last_report_, form_);
+bridge::Status ParamsInput::describe() {
+  bridge::ParamsReport report{statistics_.load(), params_.getTopic(), base::steady_now()};
+  const auto found = bridge::findings(report, last_report_);
+  bridge::Status status;
+  bridge::fill(status, found, report, last_report_);
   log_.tell(found);
   last_report_ = std::move(report);
+  return status;
 }
 
 }  // namespace trk_bridge::nodes

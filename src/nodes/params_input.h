@@ -6,10 +6,9 @@
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
 
+#include "bridge/outgoing_diagnostics.h"
 #include "finding_log.h"
 #include "ros/ros_to_trk_parameters.h"
-#include "ros/outgoing_diagnostics.h"
-#include "ros/params_to_trk.h"
 #include "trk_bridge/base/snapshot.h"
 #include "trk_input.h"
 
@@ -19,19 +18,18 @@ namespace trk_bridge::nodes {
 class ParamsInput : public TrkInput {
  public:
   /// Subscribes in the namespace of `node`.
-  ParamsInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParameters&, SetWriter);
+  ParamsInput(::ros::NodeHandle node, const ros1::RosToTrkParameters&, SetWriter);
 
-  void describe(diagnostic_updater::DiagnosticStatusWrapper& status) override;
+  bridge::Status describe() override;
 
  private:
   void take(const trk_bridge::CameraParams&);
   void take(const trk_bridge::CameraConstants&);
 
   SetWriter write_;
-  const trk_bridge::ros1::OutgoingForm form_;
-  trk_bridge::ros1::ParamsToTrk converter_;
-  base::Snapshot<trk_bridge::ros1::ParamsToTrkStatistics> statistics_;
-  trk_bridge::ros1::ParamsReport last_report_;
+  bridge::ParamsToTrk sets_;
+  base::Snapshot<bridge::ParamsToTrkStatistics> statistics_;
+  bridge::ParamsReport last_report_;
   FindingLog log_;
   ::ros::Subscriber constants_, params_;
 };

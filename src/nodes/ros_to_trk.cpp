@@ -1,37 +1,35 @@
 #include "ros_to_trk.h"
 
-#include "node_parameters.h"
+#include "node.h"
 #include "params_input.h"
+#include "ros/diagnostics.h"
 #include "ros/ros_to_trk_parameters.h"
-#include "base/clock.h"
 #include "tf_input.h"
 
 namespace trk_bridge::nodes {
 
 RosToTrk::RosToTrk(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name)
     : diagnostics_(node, private_node, name) {
-  const auto parameters = trk_bridge::ros1::read_ros_to_trk_parameters(private_parameters(private_node),
-                                                                       camera_name_of(node.getNamespace()));
-  for (const auto& sink : parameters.sinks) sinks_.push_back(std::make_unique<SinkOutput>(sink));
-  const auto write_all = [this](const trk_bridge::ros1::Outgoing& outgoing) { write(outgoing); };
-  if (parameters.input == trk_bridge::ros1::OutgoingInput::tf) {
+  const auto parameters =
+      ros1::read_ros_to_trk_parameters(private_parameters(private_node), camera_name_of(node.getNamespace()));
+  for (const auto& sink : parameters.sinks) sinks_.push_back(std::make_unique<SinkOutput>(sink, parameters.form));
+  const auto write_all = [this](const bridge::OutgoingSet& set) {
+    for (const auto& sink : sinks_) sink->write(set);
+  };
+  if (parameters.input == ros1::OutgoingInput::tf) {
     input_ = std::make_unique<TfInput>(node, parameters, write_all);
   } else {
     input_ = std::make_unique<ParamsInput>(node, parameters, write_all);
   }
-  diagnostics_.add(parameters.name,
-                   [this](diagnostic_updater::DiagnosticStatusWrapper& status) { input_->describe(status); });
+  diagnostics_.add(parameters.name, [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    ros1::to_msg(input_->describe(), status);
+  });
   for (const auto& sink : sinks_) {
     diagnostics_.add(sink->url(), [one = sink.get()](diagnostic_updater::DiagnosticStatusWrapper& status) {
-      one->describe(status);
+      ros1::to_msg(one->describe(), status);
     });
   }
   diagnostics_.start();
-}
-
-void RosToTrk::write(const trk_bridge::ros1::Outgoing& outgoing) {
-  const auto now = base::steady_now();
-  for (const auto& sink : sinks_) sink->write(outgoing, now);
 }
 
 }  // namespace trk_bridge::nodes

@@ -21,8 +21,6 @@ class RosToTrk {
   RosToTrk(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name);
 
  private:
-  void write(const trk_bridge::ros1::Outgoing&);
-
   std::vector<std::unique_ptr<SinkOutput>> sinks_;
   std::unique_ptr<TrkInput> input_;
   NodeDiagnostics diagnostics_;

@@ -1,4 +1,4 @@
-#include "node_main.h"
+#include "node.h"
 #include "ros_to_trk.h"
 
 int main(int argc, char** argv) {

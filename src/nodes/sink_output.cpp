@@ -5,42 +5,42 @@
 #include "base/clock.h"
 
 namespace trk_bridge::nodes {
+namespace {
 
-SinkOutput::SinkOutput(const transport::SinkEndpoint& endpoint)
-    : url_(endpoint.url), sink_(endpoint.open()), name_(sink_->name()), log_(name_) {
+bridge::OutletOptions options_for(const transport::SinkForm& form) {
+  bridge::OutletOptions options;
+  options.defaults = form;
+  options.rules.one_camera = true;
+  options.rules.only_cameras = true;
+  return options;
+}
+
+}  // namespace
+
+SinkOutput::SinkOutput(const transport::SinkEndpoint& endpoint, const transport::SinkForm& form)
+    : outlet_(endpoint, options_for(form)), log_(outlet_.name()) {
   last_report_.time = base::steady_now();
 }
 
 SinkOutput::~SinkOutput() {
-  if (const auto closed = sink_->close(); !closed) {
-    ROS_ERROR_STREAM(name_ << " was not closed orderly: " << transport::describe(closed.error()));
+  if (const auto closed = outlet_.close(); !closed) {
+    ROS_ERROR_STREAM(outlet_.name() << " was not closed in order: " << transport::describe(closed.error()));
   }
 }
 
-void SinkOutput::write(const trk_bridge::ros1::Outgoing& outgoing, std::int64_t now) {
-  if (outgoing.constants) pending_ = outgoing.constants;
-  tl::expected<void, transport::SinkFault> constants_written;
-  if (pending_) constants_written = sink_->write(*pending_);
-  if (constants_written) pending_.reset();
-  const auto params_written = sink_->write(*outgoing.params);
-  state_.counts = sink_->statistics();
-  state_.fails = !constants_written || !params_written;
-  if (state_.fails) {
-    ++state_.failed_sets;
-    // A file without constants takes no parameters: why it has none is the cause.
-    state_.last_fault = constants_written ? params_written.error() : constants_written.error();
-    state_.last_failure = now;
-  }
-  if (params_written) state_.last_success = now;
-  published_.store(state_);
+void SinkOutput::write(const bridge::OutgoingSet& set) {
+  if (set.constants) outlet_.write(*set.constants);
+  outlet_.write(set.params);
 }
 
-void SinkOutput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  trk_bridge::ros1::SinkReport report{name_, published_.load(), base::steady_now()};
-  const auto found = trk_bridge::ros1::findings(report, last_report_);
-  trk_bridge::ros1::fill(status, found, report, last_report_);
+bridge::Status SinkOutput::describe() {
+  auto report = bridge::report_of(outlet_, base::steady_now());
+  const auto found = bridge::findings(report, last_report_);
+  bridge::Status status;
+  bridge::fill(status, found, report, last_report_);
   log_.tell(found);
   last_report_ = std::move(report);
+  return status;
 }
 
 }  // namespace trk_bridge::nodes

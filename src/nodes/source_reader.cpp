@@ -19,8 +19,8 @@ void SourceReader::start() {
   thread_ = std::thread([this] { run(); });
 }
 
-trk_bridge::ros1::CameraReport SourceReader::report() const {
-  trk_bridge::ros1::CameraReport report;
+bridge::CameraReport SourceReader::report() const {
+  bridge::CameraReport report;
   report.source_name = source_->name();
   report.source = source_->statistics();
   report.reader = published_.load();

@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "bridge/diagnostics.h"
 #include "camera_output.h"
-#include "ros/diagnostics.h"
 #include "trk_bridge/base/snapshot.h"
 #include "trk_bridge/transport/source.h"
 
@@ -27,7 +27,7 @@ class SourceReader {
   void start();
 
   /// How it stands at this moment, but for the cameras' part. Any thread.
-  trk_bridge::ros1::CameraReport report() const;
+  bridge::CameraReport report() const;
 
  private:
   void run();
@@ -37,8 +37,8 @@ class SourceReader {
 
   std::unique_ptr<transport::Source> source_;
   std::vector<CameraOutput*> cameras_;
-  trk_bridge::ros1::ReaderStatistics statistics_;
-  base::Snapshot<trk_bridge::ros1::ReaderStatistics> published_;
+  bridge::ReaderStatistics statistics_;
+  base::Snapshot<bridge::ReaderStatistics> published_;
   mutable std::mutex failure_mutex_;
   std::string failure_;  // of the thread itself
   std::thread thread_;

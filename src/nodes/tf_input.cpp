@@ -1,6 +1,8 @@
 #include "tf_input.h"
 
 #include "base/clock.h"
+#include "ros/camera_info.h"
+#include "trk_bridge/ros/frames.h"
 #include "trk_bridge/ros/messages.h"
 
 namespace trk_bridge::nodes {
@@ -11,15 +13,18 @@ constexpr int late_looks = 20;
 
 ::ros::TransportHints no_delay() { return ::ros::TransportHints().tcpNoDelay(); }
 
+std::int64_t nanoseconds_of(const ::ros::Time& stamp) { return static_cast<std::int64_t>(stamp.toNSec()); }
+
 }  // namespace
 
-TfInput::TfInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParameters& parameters, SetWriter write)
+TfInput::TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& parameters, SetWriter write)
     : write_(std::move(write)),
       parameters_(parameters),
       period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.rate))),
       listener_(transforms_, node, /*spin_thread=*/true, no_delay()),
-      converter_(parameters.form, parameters.tf),
-      log_(parameters.name) {
+      sets_(parameters.tf),
+      log_(parameters.name),
+      sent_form_(parameters.form.format) {
   last_report_.time = base::steady_now();
   const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
   camera_info_ = node.subscribe<sensor_msgs::CameraInfo>(
@@ -29,7 +34,7 @@ TfInput::TfInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParamet
       "lens", queue,
       [this](const trk_bridge::CameraParamsConstPtr& message) {
         const std::lock_guard<std::mutex> lock(mutex_);
-        converter_.take_lens(*message);
+        sets_.take_lens(message->focdist, message->aperture);
       },
       ::ros::VoidConstPtr(), no_delay());
   sent_ = node.advertise<trk_bridge::CameraParams>("sent", queue);
@@ -46,9 +51,10 @@ TfInput::~TfInput() {
 }
 
 void TfInput::take(const sensor_msgs::CameraInfo& message) {
+  const auto info = ros1::from_msg(message);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    converter_.take(message, base::steady_now());
+    sets_.take(info, nanoseconds_of(message.header.stamp), base::steady_now());
   }
   changed_.notify_all();
 }
@@ -84,41 +90,53 @@ TfInput::Pose TfInput::newest_pose() const {
 
 bool TfInput::look() {
   const auto pose = newest_pose();
-  trk_bridge::ros1::Outgoing outgoing;
+  std::optional<bridge::OutgoingSet> set;
   {
     std::unique_lock<std::mutex> lock(mutex_);
     pose_fault_ = pose ? std::string() : pose.error();
     if (!pose) return true;
-    const auto& stamp = pose->header.stamp;
-    last_pose_ = static_cast<std::int64_t>(stamp.toNSec());
-    if (!converter_.is_new(stamp)) return false;
+    const auto stamp = nanoseconds_of(pose->header.stamp);
+    last_pose_ = stamp;
+    if (!sets_.is_new(stamp)) return false;
     // tf and camera_info of one moment come on connections of their own.
-    changed_.wait_for(lock, period_ / 4, [&] { return stopping_ || !converter_.expects_lens(stamp); });
+    changed_.wait_for(lock, period_ / 4, [&] { return stopping_ || !sets_.expects_lens(stamp); });
     if (stopping_) return true;
-    outgoing = converter_.make(*pose, base::steady_now());
+    set = sets_.make(ros1::to_isometry(pose->transform), stamp, base::steady_now());
   }
-  if (!outgoing.params) return true;
-  write_(outgoing);
-  trk_bridge::ros1::to_msg(*outgoing.params, sent_message_);
-  sent_message_.header = pose->header;
-  sent_.publish(sent_message_);
+  if (!set) return true;
+  write_(*set);
+  publish(*set, pose->header);
   return true;
 }
 
-void TfInput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  trk_bridge::ros1::TfReport report;
+void TfInput::publish(const bridge::OutgoingSet& set, const std_msgs::Header& header) {
+  // Constants that leave no picture are not given by the input.
+  if (set.constants) static_cast<void>(sent_form_.take(*set.constants));
+  auto converted = sent_form_.convert(set.params).params;
+  // The diagnostics of the sinks say why.
+  if (!converted) return;
+  converted->id = bridge::sent_id(parameters_.form, set.params.id);
+  ros1::to_msg(*converted, sent_message_);
+  sent_message_.header = header;
+  sent_.publish(sent_message_);
+}
+
+bridge::Status TfInput::describe() {
+  bridge::TfReport report;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    report.tf = converter_.statistics();
+    report.tf = sets_.statistics();
     report.pose_fault = pose_fault_;
     report.last_pose = last_pose_;
   }
   report.info_topic = camera_info_.getTopic();
   report.time = base::steady_now();
-  const auto found = trk_bridge::ros1::findings(report, last_report_, parameters_.rate);
-  trk_bridge::ros1::fill(status, found, report, last_report_, parameters_.form);
+  const auto found = bridge::findings(report, last_report_, parameters_.rate);
+  bridge::Status status;
+  bridge::fill(status, found, report, last_report_);
   log_.tell(found);
   last_report_ = std::move(report);
+  return status;
 }
 
 }  // namespace trk_bridge::nodes

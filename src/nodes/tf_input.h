@@ -15,25 +15,24 @@
 #include <trk_bridge/CameraParams.h>
 #include <tl/expected.hpp>
 
+#include "bridge/outgoing_diagnostics.h"
 #include "finding_log.h"
 #include "ros/ros_to_trk_parameters.h"
-#include "ros/outgoing_diagnostics.h"
-#include "ros/tf_to_trk.h"
 #include "trk_input.h"
 
 namespace trk_bridge::nodes {
 
 /// A thread of its own looks at tf at the rate of the parameters, by the steady clock and without drift, and writes a
 /// set when there is a newer pose; one that is late is written as soon as it is there.
-/// What was written is told on the topic `sent` as well, stamped with the time of its pose: trk has no times, so that
-/// only the counter tells a receiver's pose from the next.
+/// The set is published on the topic `sent` as well, in the node's own form and stamped with the time of its pose: trk
+/// has no times, so that only the counter tells a receiver's pose from the next.
 class TfInput : public TrkInput {
  public:
   /// Subscribes in the namespace of `node`.
-  TfInput(::ros::NodeHandle node, const trk_bridge::ros1::RosToTrkParameters&, SetWriter);
+  TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters&, SetWriter);
   ~TfInput() override;
 
-  void describe(diagnostic_updater::DiagnosticStatusWrapper& status) override;
+  bridge::Status describe() override;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -46,9 +45,10 @@ class TfInput : public TrkInput {
   bool look();
   Pose newest_pose() const;
   void take(const sensor_msgs::CameraInfo&);
+  void publish(const bridge::OutgoingSet&, const std_msgs::Header&);
 
   SetWriter write_;
-  const trk_bridge::ros1::RosToTrkParameters parameters_;
+  const ros1::RosToTrkParameters parameters_;
   const Clock::duration period_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
@@ -56,18 +56,21 @@ class TfInput : public TrkInput {
   mutable std::mutex mutex_;  // of all between here and the next comment
   std::condition_variable changed_;
   bool stopping_ = false;
-  trk_bridge::ros1::TfToTrk converter_;
+  bridge::TfToTrk sets_;
   std::string pose_fault_ = "not looked yet";
   std::int64_t last_pose_ = 0;
 
   // of the diagnostics
-  trk_bridge::ros1::TfReport last_report_;
+  bridge::TfReport last_report_;
   FindingLog log_;
+
+  // of the thread
+  camera::Converter sent_form_;
+  trk_bridge::CameraParams sent_message_;
 
   std::thread thread_;
   ::ros::Subscriber camera_info_, lens_;
   ::ros::Publisher sent_;
-  trk_bridge::CameraParams sent_message_;  // of the thread
 };
 
 }  // namespace trk_bridge::nodes

@@ -3,14 +3,13 @@
 
 #include <functional>
 
-#include <diagnostic_updater/DiagnosticStatusWrapper.h>
-
-#include "ros/outgoing.h"
+#include "bridge/outgoing_set.h"
+#include "bridge/status.h"
 
 namespace trk_bridge::nodes {
 
-/// Takes one set, which has parameters, to all sinks. Called from one thread at a time.
-using SetWriter = std::function<void(const trk_bridge::ros1::Outgoing&)>;
+/// Takes one set to all sinks. Called from one thread at a time.
+using SetWriter = std::function<void(const bridge::OutgoingSet&)>;
 
 /// Runs from construction to destruction and hands every set to the SetWriter that it was made with.
 class TrkInput {
@@ -20,7 +19,7 @@ class TrkInput {
   TrkInput& operator=(const TrkInput&) = delete;
 
   /// Findings of a kind that was not met before go to the log, too. Any thread, one at a time.
-  virtual void describe(diagnostic_updater::DiagnosticStatusWrapper& status) = 0;
+  virtual bridge::Status describe() = 0;
 
  protected:
   TrkInput() = default;

@@ -4,17 +4,17 @@
 #include <cstdint>
 #include <map>
 
-#include "node_parameters.h"
+#include <visualization_msgs/MarkerArray.h>
+
+#include "node.h"
 #include "ros/trk_to_ros_parameters.h"
-#include "ros/camera_markers.h"
 #include "trk_bridge/ros/frames.h"
 
 namespace trk_bridge::nodes {
 namespace {
 
 /// One topic for all cameras that have markers, with a queue for the bursts of each.
-::ros::Publisher advertise_markers(::ros::NodeHandle& private_node,
-                                   const trk_bridge::ros1::TrkToRosParameters& parameters) {
+::ros::Publisher advertise_markers(::ros::NodeHandle& private_node, const ros1::TrkToRosParameters& parameters) {
   const auto count = std::count_if(parameters.cameras.begin(), parameters.cameras.end(),
                                    [](const auto& camera) { return camera.publish_markers; });
   if (count == 0) return {};
@@ -26,15 +26,15 @@ namespace {
 
 TrkToRos::TrkToRos(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name)
     : node_(std::move(node)), diagnostics_(node_, private_node, name) {
-  const auto parameters = trk_bridge::ros1::read_trk_to_ros_parameters(private_parameters(private_node),
-                                                                       camera_name_of(node_.getNamespace()));
+  const auto parameters =
+      ros1::read_trk_to_ros_parameters(private_parameters(private_node), camera_name_of(node_.getNamespace()));
   open(parameters, advertise_markers(private_node, parameters));
   send_static_transforms();
   diagnostics_.start();
   for (auto& reader : readers_) reader->start();
 }
 
-void TrkToRos::open(const trk_bridge::ros1::TrkToRosParameters& parameters, const ::ros::Publisher& markers) {
+void TrkToRos::open(const ros1::TrkToRosParameters& parameters, const ::ros::Publisher& markers) {
   std::map<std::string, std::vector<CameraOutput*>> by_source;
   for (const auto& camera : parameters.cameras) {
     const auto topics = parameters.several ? ::ros::NodeHandle(node_, camera.name) : node_;
@@ -44,8 +44,7 @@ void TrkToRos::open(const trk_bridge::ros1::TrkToRosParameters& parameters, cons
   }
   for (const auto& [url, cameras] : by_source) {
     const auto& endpoint = cameras.front()->parameters().source;
-    readers_.push_back(
-        std::make_unique<SourceReader>(endpoint->open(parameters.field_rate), cameras));
+    readers_.push_back(std::make_unique<SourceReader>(endpoint->open(parameters.field_rate), cameras));
     for (auto* camera : cameras) {
       diagnostics_.add(camera->parameters().name,
                        [camera, reader = readers_.back().get()](diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -59,12 +58,7 @@ void TrkToRos::send_static_transforms() {
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (const auto& camera : cameras_) {
     if (!camera->parameters().options.publish_tf) continue;
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = ::ros::Time::now();
-    transform.header.frame_id = camera->parameters().frames.camera;
-    transform.child_frame_id = camera->parameters().frames.optical;
-    transform.transform = trk_bridge::ros1::to_transform(trk_bridge::ros1::camera_T_optical());
-    transforms.push_back(transform);
+    transforms.push_back(ros1::optical_transform(camera->parameters().frames, ::ros::Time::now()));
   }
   if (!transforms.empty()) static_transforms_.sendTransform(transforms);
 }

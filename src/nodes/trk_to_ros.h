@@ -24,7 +24,7 @@ class TrkToRos {
   TrkToRos(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name);
 
  private:
-  void open(const trk_bridge::ros1::TrkToRosParameters&, const ::ros::Publisher& markers);
+  void open(const ros1::TrkToRosParameters&, const ::ros::Publisher& markers);
   void send_static_transforms();
 
   ::ros::NodeHandle node_;

@@ -1,4 +1,4 @@
-#include "node_main.h"
+#include "node.h"
 #include "trk_to_ros.h"
 
 int main(int argc, char** argv) {

@@ -35,4 +35,13 @@ Eigen::Isometry3d camera_T_optical() {
   return pose;
 }
 
+geometry_msgs::TransformStamped optical_transform(const CameraFrames& frames, const ::ros::Time& stamp) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = stamp;
+  transform.header.frame_id = frames.camera;
+  transform.child_frame_id = frames.optical;
+  transform.transform = to_transform(camera_T_optical());
+  return transform;
+}
+
 }  // namespace trk_bridge::ros1

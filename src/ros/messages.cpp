@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "bridge/stamper.h"
 #include "trk_bridge/wire/fields.h"
 #include "trk_bridge/wire/format.h"
 
@@ -45,6 +46,12 @@ void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& mes
   std::copy(k.begin(), k.end(), message.K.begin());
   message.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   message.P = {k[0], k[1], k[2], 0, k[3], k[4], k[5], 0, k[6], k[7], k[8], 0};
+}
+
+::ros::Time to_time(std::int64_t nanoseconds) noexcept {
+  if (!bridge::can_be_stamp(nanoseconds)) return {};
+  ::ros::Time time;
+  return time.fromNSec(static_cast<std::uint64_t>(nanoseconds));
 }
 
 wire::CameraParams from_msg(const Params& message) {

@@ -5,7 +5,7 @@
 
 #include "endpoints/presets.h"
 #include "trk_bridge/endpoints/endpoints.h"
-#include "trk_bridge/wire/format.h"
+#include "trk_bridge/ros/frames.h"
 
 namespace trk_bridge::ros1 {
 namespace {
@@ -22,7 +22,7 @@ void read_sinks(ParameterReader& node, std::vector<transport::SinkEndpoint>& sin
   }
 }
 
-void read_form(ParameterReader& node, OutgoingForm& form) {
+void read_form(ParameterReader& node, transport::SinkForm& form) {
   node.parsed("format", form.format, wire::format_from_words);
   std::optional<endpoints::Preset> preset;
   node.parsed("preset", preset, endpoints::find_preset);
@@ -49,7 +49,9 @@ void read_tf_input(ParameterReader& node, RosToTrkParameters& parameters) {
   node.integer("blank_bottom", tf.chip.blank_bottom, at_least(0, "pixels"));
   node.parsed("studio_frame", parameters.studio_frame, parse_frame);
   node.parsed("camera_frame", parameters.camera_frame, parse_frame);
-  node.flag("camera_frame_is_optical", tf.camera_frame_is_optical);
+  bool is_optical = false;
+  node.flag("camera_frame_is_optical", is_optical);
+  if (is_optical) tf.frame_T_camera = camera_T_optical().inverse();
   node.number("focdist", tf.focdist, at_least(0, "metres"));
   node.number("aperture", tf.aperture, at_least(0));
   if (node.are_sound({"camera_frame", "studio_frame"}) && parameters.camera_frame == parameters.studio_frame) {

@@ -8,10 +8,10 @@
 
 #include <tl/expected.hpp>
 
+#include "bridge/tf_to_trk.h"
 #include "parameter_reader.h"
-#include "outgoing.h"
-#include "tf_to_trk.h"
 #include "trk_bridge/transport/endpoint.h"
+#include "trk_bridge/wire/format.h"
 #include "trk_bridge/wire/record.h"
 
 namespace trk_bridge::ros1 {
@@ -21,10 +21,11 @@ enum class OutgoingInput : std::uint8_t { params, tf };
 
 /// Parameters of the node, with their defaults.
 struct RosToTrkParameters {
-  std::string name;                 ///< the camera's: names its diagnostics
+  std::string name;                            ///< the camera's: names its diagnostics
   std::vector<transport::SinkEndpoint> sinks;  ///< at least one; each is written
   OutgoingInput input = OutgoingInput::params;
-  OutgoingForm form;     ///< what `format` or `preset`, and `id` say
+  /// What `format` or `preset`, and `id` say: for sinks that do not say it themselves. Always has a format.
+  transport::SinkForm form{wire::euler, true, std::nullopt};
   int queue_size = 100;  ///< messages that wait for the node
 
   // input: params
@@ -33,8 +34,8 @@ struct RosToTrkParameters {
   // input: tf
   double rate = 50;  ///< Hz
   std::string studio_frame = "studio";
-  std::string camera_frame;  ///< default: the camera's name
-  TfToTrkOptions tf;         ///< the chip's width and height are required
+  std::string camera_frame;   ///< default: the camera's name
+  bridge::TfToTrkOptions tf;  ///< the chip's width and height are required
 };
 
 /// Reads a node's private parameters; `camera_name` names the camera, and its frame where none is given. Throws

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "camera_markers.h"
+#include "markers.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/wire/format.h"
 

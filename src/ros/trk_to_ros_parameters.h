@@ -8,8 +8,9 @@
 
 #include <tl/expected.hpp>
 
+#include "bridge/camera_options.h"
 #include "parameter_reader.h"
-#include "camera_options.h"
+#include "trk_bridge/ros/frames.h"
 #include "trk_bridge/transport/endpoint.h"
 
 namespace trk_bridge::ros1 {
@@ -23,10 +24,10 @@ inline constexpr Range field_rate_range{1, 1000, "Hz"};
 
 /// Parameters of one camera.
 struct CameraParameters {
-  std::string name;                      ///< names its topics, frames and diagnostics
+  std::string name;                                 ///< names its topics, frames and diagnostics
   std::optional<transport::SourceEndpoint> source;  ///< required: always there once read
-  CameraFrames frames;                   ///< default: `camera` is the name, `optical` the name and "_optical"
-  CameraOptions options;
+  CameraFrames frames;  ///< default: `camera` is the name, `optical` the name and "_optical"
+  bridge::CameraOptions options;
   bool publish_markers = false;  ///< needs publish_camera_info
   double marker_far = 3;         ///< m, where the markers' frustum and axis end
 };

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "trk_bridge/ros/camera_info.h"
+#include "ros/camera_info.h"
 
 namespace trk_bridge::rviz_display {
 namespace {
@@ -16,9 +16,9 @@ std::string numbers(const camera::ViewingLens& lens) {
 }  // namespace
 
 bool LensView::look_through(const sensor_msgs::CameraInfo& info) {
-  auto lens = ros1::viewing_lens(info);
+  auto lens = bridge::viewing_lens(ros1::from_msg(info));
   if (!lens) {
-    std::string fault = ros1::describe(lens.error());
+    std::string fault = bridge::describe(lens.error());
     if (!lens_ && fault == fault_) return false;
     forget();
     fault_ = std::move(fault);

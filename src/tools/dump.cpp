@@ -4,8 +4,8 @@
 
 #include "cli/checked_output.h"
 #include "cli/listen.h"
-#include "record_text.h"
 #include "cli/tally.h"
+#include "record_text.h"
 
 namespace trk_bridge::tools {
 namespace {
@@ -28,13 +28,8 @@ class Dump final : public cli::Listener {
 
   cli::ExitCode finish(const transport::SourceStatistics& source, cli::Ending ending) {
     const cli::ExitCode written = out_.finish(err_);
-    tally_.summarise(source, err_);
-    if (written != cli::exit_good) return written;
-    if (ending == cli::Ending::failed) {
-      err_ << "trk: error: " << source.error << '\n';
-      return cli::exit_failed;
-    }
-    return cli::exit_good;
+    const cli::ExitCode ended = cli::report_end(tally_, source, ending, err_);
+    return written != cli::exit_good ? written : ended;
   }
 
  private:

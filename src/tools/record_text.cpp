@@ -1,7 +1,6 @@
 #include "record_text.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -10,19 +9,12 @@
 #include <rapidjson/writer.h>
 
 #include "base/time_text.h"
+#include "cli/number_text.h"
 #include "trk_bridge/wire/fields.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::tools {
 namespace {
-
-using NumberText = std::array<char, 32>;
-
-template <typename Number>
-std::string_view shortest(Number value, NumberText& into) {
-  const auto result = std::to_chars(into.data(), into.data() + into.size(), value);
-  return {into.data(), static_cast<std::size_t>(result.ptr - into.data())};
-}
 
 class JsonRecord {
  public:
@@ -94,14 +86,13 @@ class JsonRecord {
   }
 
   void value(double content) {
-    NumberText buffer;
     if (!std::isfinite(content)) {
       writer_.Null();
     } else if (content == 0 && std::signbit(content)) {
-      // Readers take -0 for an integer and lose its sign.
+      // Readers understand -0 as an integer and lose its sign.
       raw("-0.0");
     } else {
-      raw(shortest(content, buffer));
+      raw(cli::number_text(content));
     }
   }
 
@@ -153,7 +144,7 @@ class PlainRecord {
       : line_(base::iso_time(sample.arrival) + " " + transport::to_string(sample.sender)) {
     std::visit([this](const auto& record) { body(record); }, sample.record);
   }
-  std::string take() { return std::move(line_); }
+  std::string finish() { return std::move(line_); }
 
  private:
   void body(const wire::CameraParams& p) {
@@ -197,8 +188,7 @@ class PlainRecord {
 
   template <typename Number>
   void number(Number value) {
-    NumberText buffer;
-    word(shortest(value, buffer));
+    word(cli::number_text(value));
   }
 
   std::string line_;
@@ -212,6 +202,6 @@ std::string_view JsonLine::of(const transport::Sample& sample) {
   return {buffer_.GetString(), buffer_.GetSize()};
 }
 
-std::string plain_line(const transport::Sample& sample) { return PlainRecord(sample).take(); }
+std::string plain_line(const transport::Sample& sample) { return PlainRecord(sample).finish(); }
 
 }  // namespace trk_bridge::tools

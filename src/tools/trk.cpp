@@ -10,15 +10,15 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/arguments.h"
-#include "dump.h"
 #include "cli/exit_code.h"
+#include "cli/stop_signals.h"
+#include "dump.h"
+#include "endpoints/presets.h"
 #include "monitor/monitor.h"
 #include "preset_list.h"
 #include "relay.h"
-#include "cli/stop_signals.h"
-#include "endpoints/presets.h"
 #ifdef TRK_BRIDGE_WITH_BAG
-#include "bag/bag_command.h"
+#include "bag/command.h"
 #endif
 
 namespace trk_bridge::tools {
@@ -31,26 +31,39 @@ bool is_regular_file(int fd) {
   return ::fstat(fd, &there) == 0 && S_ISREG(there.st_mode);
 }
 
+void add_source(CLI::App& command, std::string& url) {
+  command.footer(cli::endpoints_help);
+  command.add_option("SOURCE", url, "Where records come from")->required();
+}
+
+void add_seconds(CLI::App& command, std::optional<double>& seconds) {
+  command.add_option("--seconds", seconds, "End after S seconds")->check(CLI::PositiveNumber)->type_name("S");
+}
+
+/// With the source of that URL open, named on standard error, and stopped by signals.
+template <typename Run>
+cli::ExitCode run_with_source(const std::string& url, Run run) {
+  const auto source = cli::source_from(url).open(default_field_rate);
+  const cli::StopSignals signals(source.get());
+  std::cerr << "trk: reading " << source->name() << '\n';
+  return run(*source);
+}
+
 class DumpCommand {
  public:
   explicit DumpCommand(CLI::App& app)
       : command_(app.add_subcommand("dump", "Print what comes from SOURCE, a record a line")) {
-    command_->footer(cli::endpoints_help);
-    command_->add_option("SOURCE", url_, "Where records come from")->required();
+    add_source(*command_, url_);
     command_->add_flag("--json", options_.json, "A JSON object a line");
     command_->add_option("--count", options_.count, "End after N records")->check(CLI::PositiveNumber)->type_name("N");
-    command_->add_option("--seconds", options_.seconds, "End after S seconds")
-        ->check(CLI::PositiveNumber)
-        ->type_name("S");
+    add_seconds(*command_, options_.seconds);
   }
   bool is_asked_for() const { return command_->parsed(); }
 
   cli::ExitCode run() {
-    const auto source = cli::source_from(url_).open(default_field_rate);
-    const cli::StopSignals signals(source.get());
-    std::cerr << "trk: reading " << source->name() << '\n';
     options_.flush_each = !is_regular_file(STDOUT_FILENO);
-    return dump(*source, options_, std::cout, std::cerr);
+    return run_with_source(url_,
+                           [this](transport::Source& source) { return dump(source, options_, std::cout, std::cerr); });
   }
 
  private:
@@ -119,26 +132,22 @@ class MonitorCommand {
       : command_(app.add_subcommand("monitor",
                                     "Show live what comes from SOURCE: on a terminal as a screen, which q "
                                     "ends, else a line a second for every camera")) {
-    command_->footer(cli::endpoints_help);
-    command_->add_option("SOURCE", url_, "Where records come from")->required();
-    command_->add_option("--seconds", options_.seconds, "End after S seconds")
-        ->check(CLI::PositiveNumber)
-        ->type_name("S");
+    add_source(*command_, url_);
+    add_seconds(*command_, seconds_);
   }
   bool is_asked_for() const { return command_->parsed(); }
 
-  cli::ExitCode run() {
-    const auto source = cli::source_from(url_).open(default_field_rate);
-    const cli::StopSignals signals(source.get());
-    std::cerr << "trk: reading " << source->name() << '\n';
-    if (::isatty(STDOUT_FILENO) != 0) return monitor::monitor_on_screen(*source, options_, std::cerr);
-    return monitor::monitor_in_lines(*source, options_, std::cout, std::cerr);
+  cli::ExitCode run() const {
+    return run_with_source(url_, [this](transport::Source& source) {
+      if (::isatty(STDOUT_FILENO) != 0) return monitor::show_on_screen(source, seconds_, std::cerr);
+      return monitor::show_in_lines(source, seconds_, std::cout, std::cerr);
+    });
   }
 
  private:
   CLI::App* command_;
   std::string url_;
-  monitor::MonitorOptions options_;
+  std::optional<double> seconds_;
 };
 
 class PresetsCommand {
@@ -175,7 +184,7 @@ int main(int argc, char** argv) {
   MonitorCommand monitor_command(app);
   PresetsCommand presets_command(app);
 #ifdef TRK_BRIDGE_WITH_BAG
-  bag::BagCommand bag_command(app);
+  bag::Command bag_command(app);
 #else
   app.footer("Built without ROS: trk bag is not part of it.");
 #endif

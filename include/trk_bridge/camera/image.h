@@ -16,6 +16,11 @@ struct Raster {
 /// Constants must have passed check().
 [[nodiscard]] Raster raster_of(const wire::CameraConstants&) noexcept;
 
+/// The angle (degrees) that a side of the chip (mm) takes up at an image distance (mm), without distortion and centre
+/// shift. not_finite for such a distance; bad_field_of_view unless both are more than 0 and the angle lies between 0
+/// and 180 degrees.
+[[nodiscard]] Result<double> field_of_view(double image_distance, double side) noexcept;
+
 /// A point in the camera frame (m; x right, y forward, z up) to the undistorted chip (mm, from the chip's centre).
 /// behind_camera unless y > 0.
 [[nodiscard]] Result<Eigen::Vector2d> project(const Lens&, const Eigen::Vector3d& point) noexcept;

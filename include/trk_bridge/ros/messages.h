@@ -1,6 +1,9 @@
-// Records and calibrations <-> messages. Headers are the caller's: nothing here touches them.
+// Records, calibrations and stamps <-> messages. Headers are the caller's: nothing here touches them.
 #pragma once
 
+#include <cstdint>
+
+#include <ros/time.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
@@ -16,6 +19,10 @@ void to_msg(const wire::CameraConstants& constants, trk_bridge::CameraConstants&
 
 /// Size, model, D, K, R = identity, P = [K|0]; no binning, no region of interest. Allocates only when `message` is new.
 void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& message);
+
+/// Nanoseconds since 1970 UTC as a ROS time. 0, which ROS takes for "no time", where it cannot hold them (1970 to
+/// 2106).
+::ros::Time to_time(std::int64_t nanoseconds) noexcept;
 
 /// The way back, field by field. Headers are not looked at.
 wire::CameraParams from_msg(const trk_bridge::CameraParams& message);

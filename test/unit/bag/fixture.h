@@ -12,9 +12,9 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
-#include "bag/bag_take.h"
-#include "temporary_directory.h"
+#include "bag/convert.h"
 #include "file/take.h"
+#include "temporary_directory.h"
 #include "trk_bridge/wire/codec.h"
 #include "vectors.h"
 

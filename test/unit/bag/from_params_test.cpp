@@ -61,18 +61,18 @@ TEST_F(FromParams, TheTimeCodeIsThatOfTheFirstStamp) {
   EXPECT_THAT(err.str(), Not(HasSubstr("missing")));
 }
 
-TEST_F(FromParams, GapsAreToldAndNotFilled) {
+TEST_F(FromParams, GapsAreReportedAndNotFilled) {
   put_constants();
   put({100, 101, 105, 106, 110});
   EXPECT_EQ(to_take(bag.closed()).params.size(), 5u);
   EXPECT_THAT(err.str(), HasSubstr("6 fields are missing in 2 gaps, the first of 3 after 10002.020000000"));
 }
 
-TEST_F(FromParams, AFieldRateThatTheStampsDenyHasToBeSaid) {
+TEST_F(FromParams, AFieldRateThatTheStampsContradictHasToBeSet) {
   put_constants();
   put(counted(0, 300), "/crane", 59.94);
   const auto path = bag.closed();
-  EXPECT_THAT(refusal(path), HasSubstr("59.94 fields a second, not 50: say --field-rate HZ"));
+  EXPECT_THAT(refusal(path), HasSubstr("59.94 fields a second, not 50: set --field-rate HZ"));
   BagToTakeOptions options;
   options.field_rate = 59.94;
   EXPECT_EQ(to_take(path, options).params.size(), 300u);
@@ -84,7 +84,7 @@ TEST_F(FromParams, OfSeveralCamerasOneIsChosen) {
   put_constants("/studio/right");
   put(counted(1, 6), "/studio/right");
   const auto path = bag.closed();
-  EXPECT_THAT(refusal(path), HasSubstr("--camera must say which: left (params), studio/right (params)"));
+  EXPECT_THAT(refusal(path), HasSubstr("--camera must name one: left (params), studio/right (params)"));
   BagToTakeOptions options;
   options.camera = "left";
   EXPECT_EQ(to_take(path, options).params.size(), 3u);
@@ -124,6 +124,12 @@ TEST_F(FromParams, ConstantsMayComeLateAndTwiceButNotChange) {
   EXPECT_THAT(refusal(other.closed()), HasSubstr("the constants change"));
 }
 
+TEST_F(FromParams, ConstantsThatDescribeNoPictureAreRefused) {
+  bag.put("/crane/constants", 99.5, constants_message(0, -1));
+  put(counted(1, 4));
+  EXPECT_THAT(refusal(bag.closed()), HasSubstr("the constants at "));
+}
+
 TEST_F(FromParams, ATakeHoldsOneId) {
   put_constants("/crane", 5);
   bag.put("/crane/params", 100, params_message(some_params(1, 7), 100));
@@ -141,7 +147,7 @@ TEST_F(FromParams, ATakeHoldsOneId) {
   EXPECT_EQ(to_take(path, options).params.at(1).id, 3u);
 }
 
-TEST_F(FromParams, WhatATakeCannotHoldIsLeftOutAndTold) {
+TEST_F(FromParams, WhatATakeCannotHoldIsLeftOutAndReported) {
   put_constants();
   put(counted(1, 3));
   auto bad = some_params(3);
@@ -151,7 +157,7 @@ TEST_F(FromParams, WhatATakeCannotHoldIsLeftOutAndTold) {
   EXPECT_THAT(err.str(), HasSubstr("left out: 1 fields, the first at 10001.000000000: field 8 is not finite"));
 }
 
-TEST_F(FromParams, ParamsCanBeToldInAnotherFormat) {
+TEST_F(FromParams, ParamsCanBeConvertedToAnotherFormat) {
   put_constants();
   put(counted(1, 3));
   BagToTakeOptions options;

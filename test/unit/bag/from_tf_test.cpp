@@ -33,6 +33,11 @@ class FromTf : public BagTest {
     bag.put("/tf_static", 99, message);
   }
   void put_info(double stamp, const std::string& model = "plumb_bob") {
+    auto info = info_at(stamp);
+    info.distortion_model = model;
+    bag.put("/cam/camera_info", stamp, info);
+  }
+  static sensor_msgs::CameraInfo info_at(double stamp) {
     sensor_msgs::CameraInfo info;
     info.header.stamp = ::ros::Time(stamp);
     info.header.frame_id = "lens_optical";
@@ -42,9 +47,9 @@ class FromTf : public BagTest {
     const double mx = 1920 / 9.59;
     const double my = 1080 / 5.39;
     info.K = {mx * 8, 0, 959.5, 0, my * 8, 539.5, 0, 0, 1};
-    info.distortion_model = model;
+    info.distortion_model = "plumb_bob";
     info.D = {0, 0, 0, 0, 0};
-    bag.put("/cam/camera_info", stamp, info);
+    return info;
   }
   static BagToTakeOptions with_chip() {
     BagToTakeOptions options;
@@ -123,21 +128,50 @@ TEST_F(FromTf, FieldsWithoutTransformsAroundThemAreLeftOut) {
   EXPECT_THAT(err.str(), HasSubstr("left out: 2 fields, the first at 99.500000000: no transforms around its time"));
 }
 
-TEST_F(FromTf, WithoutConstantsTheChipHasToBeSaid) {
+TEST_F(FromTf, WithoutConstantsTheChipHasToBeSet) {
   put_arm();
   put_tf(100.0, 0);
   put_tf(100.2, 0);
   put_info(100.1);
-  EXPECT_THAT(refusal(bag.closed()), HasSubstr("say --chip-width MM and --chip-height MM"));
+  EXPECT_THAT(refusal(bag.closed()), HasSubstr("set --chip-width MM and --chip-height MM"));
 }
 
-TEST_F(FromTf, AModelThatTrkCannotTellIsNamed) {
+TEST_F(FromTf, AModelThatTrkCannotExpressIsNamed) {
   put_arm();
   put_tf(100.0, 0);
   put_tf(100.2, 0);
   put_info(100.1, "equidistant");
   EXPECT_THAT(refusal(bag.closed(), with_chip()), HasSubstr("no field is left"));
-  EXPECT_THAT(err.str(), HasSubstr("distortion model equidistant"));
+  EXPECT_THAT(err.str(),
+              HasSubstr("distortion_model 'equidistant' and 5 coefficients: distortion_model must be plumb_bob or"));
+}
+
+TEST_F(FromTf, EightCoefficientsOfPlumbBobAreRefused) {
+  put_arm();
+  put_tf(100.0, 0);
+  put_tf(100.2, 0);
+  auto info = info_at(100.1);
+  info.D.resize(8);
+  bag.put("/cam/camera_info", 100.1, info);
+  EXPECT_THAT(refusal(bag.closed(), with_chip()), HasSubstr("no field is left"));
+  EXPECT_THAT(err.str(), HasSubstr("'plumb_bob' and 8 coefficients: D must have 4 or 5 coefficients with plumb_bob"));
+}
+
+TEST_F(FromTf, BinningAndRegionOfInterestDoNotChangeTheLens) {
+  put_arm();
+  put_tf(100.0, 0);
+  put_tf(100.2, 0);
+  put_info(100.04);
+  auto info = info_at(100.06);
+  info.binning_x = info.binning_y = 2;
+  info.roi.x_offset = 100;
+  info.roi.width = 400;
+  info.roi.height = 300;
+  bag.put("/cam/camera_info", 100.06, info);
+  const auto take = to_take(bag.closed(), with_chip());
+  ASSERT_EQ(take.params.size(), 2u);
+  EXPECT_EQ(take.params[1].fov, take.params[0].fov);
+  EXPECT_EQ(take.params[1].center_x, take.params[0].center_x);
 }
 
 TEST_F(FromTf, WithoutAnyTfThePoseIsNotKnown) {
@@ -164,7 +198,7 @@ TEST_P(TakeThroughTf, IsTheSameCamera) {
   const auto sent = file::read_take(path);
   const auto bag_path = to_bag(path);
   BagToTakeOptions options;
-  options.input = BagInput::tf;
+  options.input = Input::tf;
   const auto back = to_take(bag_path, options);
   EXPECT_EQ(back.time_code, sent.time_code);
   ASSERT_EQ(back.params.size(), sent.params.size());

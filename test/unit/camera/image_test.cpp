@@ -54,6 +54,16 @@ TEST(Raster, ReachesTheCornerFarthestFromTheAxis) {
   EXPECT_NEAR(image_reach(Lens{10}, blank), std::hypot(7, 2.5), 1e-12);
 }
 
+TEST(FieldOfView, IsTheAngleOfASideOfTheChip) {
+  EXPECT_NEAR(field_of_view(4, 8).value(), 90, 1e-12);
+  EXPECT_NEAR(field_of_view(4 * std::sqrt(3.0), 8).value(), 60, 1e-12);
+  EXPECT_EQ(field_of_view(0, 8).error(), CameraReason::bad_field_of_view);
+  EXPECT_EQ(field_of_view(4, 0).error(), CameraReason::bad_field_of_view);
+  EXPECT_EQ(field_of_view(1e-300, 8).error(), CameraReason::bad_field_of_view);
+  EXPECT_EQ(field_of_view(std::nan(""), 8).error(), CameraReason::not_finite);
+  EXPECT_EQ(field_of_view(4, std::nan("")).error(), CameraReason::bad_field_of_view);
+}
+
 TEST(Distortion, FollowsThePolynomialOfTheDocument) {
   const Lens lens{10, {1, -1}, 0.01, 0.001, 0, 0};
   // (3, 4) from the axis: R = 25, u = 1 + 25 * (0.01 + 25 * 0.001) = 1.875.

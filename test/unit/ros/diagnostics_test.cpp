@@ -2,178 +2,41 @@
 
 #include <gmock/gmock.h>
 
-#include "trk_bridge/wire/format.h"
-
 namespace trk_bridge::ros1 {
 namespace {
 
+using bridge::Level;
 using diagnostic_msgs::DiagnosticStatus;
-using ::testing::HasSubstr;
-using transport::SourceState;
 
-constexpr std::int64_t second = 1'000'000'000;
-
-class Diagnostics : public ::testing::Test {
- protected:
-  Diagnostics() {
-    now.source_name = before.source_name = "udp port 7000";
-    before.time = 10 * second;
-    now.time = 12 * second;
-    now.source.state = SourceState::receiving;
-    now.camera.constants = ConstantsOrigin::own;
-    now.camera.sequence.accepted = 100;
-    now.camera.last_news = now.time - second / 50;
+TEST(Diagnostics, LevelsAreThoseOfTheMessage) {
+  for (const auto& [level, number] :
+       {std::pair(Level::ok, DiagnosticStatus::OK), std::pair(Level::warn, DiagnosticStatus::WARN),
+        std::pair(Level::error, DiagnosticStatus::ERROR), std::pair(Level::stale, DiagnosticStatus::STALE)}) {
+    bridge::Status status;
+    status.level = level;
+    diagnostic_updater::DiagnosticStatusWrapper message;
+    to_msg(status, message);
+    EXPECT_EQ(int{message.level}, int{number});
   }
-
-  diagnostic_updater::DiagnosticStatusWrapper status() {
-    diagnostic_updater::DiagnosticStatusWrapper s;
-    fill(s, findings(now, before, options, 50), now, before);
-    return s;
-  }
-
-  std::string value(const std::string& key) {
-    for (const auto& pair : status().values) {
-      if (pair.key == key) return pair.value;
-    }
-    return "no such key";
-  }
-
-  void expect(std::uint8_t level, const std::string& text) {
-    const auto s = status();
-    EXPECT_EQ(int{s.level}, int{level}) << s.message;
-    EXPECT_THAT(s.message, HasSubstr(text));
-  }
-
-  CameraOptions options;
-  CameraReport now, before;
-};
-
-TEST_F(Diagnostics, ReceivingIsOkWithItsRate) {
-  expect(DiagnosticStatus::OK, "receiving from");
-  EXPECT_EQ(value("rate (Hz)"), "50.00");
-  EXPECT_EQ(value("age of last sample (s)"), "0.02");
-  EXPECT_EQ(status().hardware_id, "udp port 7000");
 }
 
-TEST_F(Diagnostics, NothingEverIsStaleAndSaysWhatForItWaits) {
-  now.camera = {};
-  now.source.state = SourceState::waiting;
-  now.source.waiting_for = "slot 7: no segment";
-  expect(DiagnosticStatus::STALE, "slot 7: no segment");
-  EXPECT_EQ(value("age of last sample (s)"), "never");
-}
-
-TEST_F(Diagnostics, DatagramsThatAreNotTrk) {
-  now.camera = {};
-  now.source.state = SourceState::nothing_valid;
-  now.source.malformed = 3;
-  now.reader.has_fault = true;
-  now.reader.last_fault = {wire::Reason::bad_magic};
-  expect(DiagnosticStatus::WARN, "datagrams come but none is trk: " + wire::describe({wire::Reason::bad_magic}));
-  EXPECT_EQ(value("malformed"), "3");
-}
-
-TEST_F(Diagnostics, SendersThatAreNotAllowed) {
-  now.camera = {};
-  now.source.state = SourceState::only_refused;
-  now.source.last_refused = {transport::SenderKind::ipv4, {192, 0, 2, 7}, 50123};
-  expect(DiagnosticStatus::WARN, "only from senders that are not allowed, last 192.0.2.7:50123");
-}
-
-TEST_F(Diagnostics, OtherIdsOnly) {
-  now.camera = {};
-  options.id = 7;
-  now.reader.unknown_id_records = 5;
-  now.reader.unknown_ids = {3, 4};
-  now.reader.unknown_id_count = 2;
-  expect(DiagnosticStatus::WARN, "none with id 7; seen: 3, 4");
-}
-
-TEST_F(Diagnostics, ASilenceOfMoreThanASecondWarns) {
-  now.camera.last_news = now.time - 3 * second;
-  expect(DiagnosticStatus::WARN, "nothing new for 3.0 s");
-}
-
-TEST_F(Diagnostics, ACounterThatStandsStillIsToldAsSuch) {
-  now.camera.last_news = now.time - 3 * second;
-  now.camera.sequence.duplicates = 150;
-  expect(DiagnosticStatus::WARN, "counter stands still");
-}
-
-TEST_F(Diagnostics, AFailedSourceIsAnErrorWithItsReason) {
-  now.source.state = SourceState::failed;
-  now.source.error = "udp port 7000: the network is down";
-  expect(DiagnosticStatus::ERROR, "the network is down");
-  EXPECT_EQ(value("last error"), "udp port 7000: the network is down");
-}
-
-TEST_F(Diagnostics, AFileThatEndedIsInOrder) {
-  now.source.state = SourceState::ended;
-  expect(DiagnosticStatus::OK, "ended");
-}
-
-TEST_F(Diagnostics, NoConstantsYet) {
-  now.camera.constants = ConstantsOrigin::none;
-  expect(DiagnosticStatus::WARN, "no constants yet");
-  options.publish_camera_info = false;
-  expect(DiagnosticStatus::OK, "receiving");
-}
-
-TEST_F(Diagnostics, WithheldNamesTheFormatThatNeedsConstants) {
-  now.camera.constants = ConstantsOrigin::none;
-  now.camera.withheld = 100;
-  now.camera.withhold_reason = camera::CameraReason::constants_needed;
-  now.camera.last_format = wire::euler | wire::field_of_view;
-  expect(DiagnosticStatus::WARN, "no constants yet: format 'euler");
-  EXPECT_EQ(value("withheld"), "100");
-}
-
-TEST_F(Diagnostics, OnlyGrowthIsAFinding) {
-  for (auto* report : {&now, &before}) {
-    report->source.malformed = 4;
-    report->source.kernel_drops = 4;
-    report->source.refused = 4;
-    report->reader.unknown_id_records = 4;
-    report->camera.sequence.lost = 4;
-    report->camera.dropped = 4;
-    report->camera.bad_constants = 4;
-    report->camera.held_stamps = 4;
-    report->camera.id_changes = 4;
-  }
-  expect(DiagnosticStatus::OK, "receiving");
-  EXPECT_EQ(value("lost"), "4");
-
-  ++now.camera.sequence.lost;
-  expect(DiagnosticStatus::WARN, "lost 1");
-  ++now.source.kernel_drops;
-  expect(DiagnosticStatus::WARN, "the kernel dropped");
-  ++now.camera.dropped;
-  now.camera.drop_reason = camera::CameraReason::not_a_rotation;
-  expect(DiagnosticStatus::WARN, camera::describe(camera::CameraReason::not_a_rotation));
-}
-
-TEST_F(Diagnostics, NoCameraInfoSaysWhy) {
-  now.camera.without_camera_info = 100;
-  now.camera.info_reason = camera::CameraReason::not_monotonic;
-  expect(DiagnosticStatus::WARN, "no camera_info: " + camera::describe(camera::CameraReason::not_monotonic));
-}
-
-TEST_F(Diagnostics, ALensThatCameraInfoTellsInexactlyIsToldWithItsError) {
-  now.camera.has_camera_info = true;
-  now.camera.fit_residual = 0.01;
-  expect(DiagnosticStatus::OK, "receiving");
-  now.camera.fit_residual = 0.047;
-  expect(DiagnosticStatus::WARN, "camera_info tells the distortion to 0.047 px, no better");
-  now.camera.has_camera_info = false;
-  expect(DiagnosticStatus::OK, "receiving");
-}
-
-TEST_F(Diagnostics, NoMarkersSaysWhy) {
-  now.markers.not_drawn = before.markers.not_drawn = 5;
-  expect(DiagnosticStatus::OK, "receiving");
-  now.markers.not_drawn = 6;
-  now.markers.reason = {InfoReason::no_lens, camera::CameraReason::too_wide};
-  expect(DiagnosticStatus::WARN, "no markers: " + camera::describe(camera::CameraReason::too_wide));
+TEST(Diagnostics, TextsAndValuesInTheirOrder) {
+  bridge::Status status;
+  status.message = "receiving";
+  status.hardware_id = "udp port 7000";
+  status.add("lost", std::uint64_t{4});
+  status.add("format", "euler");
+  diagnostic_updater::DiagnosticStatusWrapper message;
+  message.name = "trk_to_ros: crane1";
+  to_msg(status, message);
+  EXPECT_EQ(message.name, "trk_to_ros: crane1");
+  EXPECT_EQ(message.message, "receiving");
+  EXPECT_EQ(message.hardware_id, "udp port 7000");
+  ASSERT_EQ(message.values.size(), 2u);
+  EXPECT_EQ(message.values[0].key, "lost");
+  EXPECT_EQ(message.values[0].value, "4");
+  EXPECT_EQ(message.values[1].key, "format");
+  EXPECT_EQ(message.values[1].value, "euler");
 }
 
 }  // namespace

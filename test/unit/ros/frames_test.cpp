@@ -76,5 +76,15 @@ TEST(Frames, EveryCaseArrivesAsItsStudioTCamera) {
   }
 }
 
+TEST(Frames, OpticalTransformIsTheStaticOneOfTf) {
+  const auto transform = optical_transform({"studio", "crane1", "crane1_optical"}, ::ros::Time(12, 34));
+  EXPECT_EQ(transform.header.stamp, ::ros::Time(12, 34));
+  EXPECT_EQ(transform.header.frame_id, "crane1");
+  EXPECT_EQ(transform.child_frame_id, "crane1_optical");
+  // -90 degrees about x.
+  EXPECT_NEAR(transform.transform.rotation.x, -std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(transform.transform.rotation.w, std::sqrt(0.5), 1e-15);
+}
+
 }  // namespace
 }  // namespace trk_bridge::ros1

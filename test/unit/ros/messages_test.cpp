@@ -93,5 +93,14 @@ TEST(Messages, CalibrationAsCameraInfo) {
   EXPECT_THAT(info.D, ::testing::ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
 }
 
+TEST(Messages, TimesToTheNanosecondFrom1970To2106) {
+  EXPECT_EQ(to_time(1'700'000'000'083'456'789), ::ros::Time(1'700'000'000, 83'456'789));
+  EXPECT_EQ(to_time(1), ::ros::Time(0, 1));
+  EXPECT_EQ(to_time(4'294'967'295'999'999'999), ::ros::Time(4'294'967'295u, 999'999'999u));
+  EXPECT_TRUE(to_time(0).isZero());
+  EXPECT_TRUE(to_time(-1).isZero());
+  EXPECT_TRUE(to_time(4'294'967'296'000'000'000).isZero());
+}
+
 }  // namespace
 }  // namespace trk_bridge::ros1

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "trk_bridge/ros/frames.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {
@@ -48,7 +49,7 @@ XmlRpcValue of_tf() {
   return tree;
 }
 
-auto has_url(const std::string& url) { return Field(&SinkEndpoint::url, url); }
+auto has_url(const std::string& url) { return Field(&transport::SinkEndpoint::url, url); }
 
 struct Wrong {
   const char* name;
@@ -155,7 +156,8 @@ TEST(ReadOutgoing, Defaults) {
   EXPECT_EQ(p.rate, 50);
   EXPECT_EQ(p.studio_frame, "studio");
   EXPECT_EQ(p.camera_frame, "crane1");
-  EXPECT_FALSE(p.tf.camera_frame_is_optical || p.form.id || p.constants);
+  EXPECT_FALSE(p.form.id || p.constants);
+  EXPECT_TRUE(p.tf.frame_T_camera.matrix().isIdentity());
   EXPECT_EQ(p.form.format, std::uint32_t{wire::euler});
   EXPECT_TRUE(p.form.sends_id);
 }
@@ -192,11 +194,25 @@ TEST(ReadOutgoing, EverythingOfTf) {
   EXPECT_EQ(p.tf.chip.blank_left, 3);
   EXPECT_EQ(p.studio_frame, "stage");
   EXPECT_EQ(p.camera_frame, "head_optical");
-  EXPECT_TRUE(p.tf.camera_frame_is_optical);
+  EXPECT_TRUE(p.tf.frame_T_camera.isApprox(camera_T_optical().inverse()));
   EXPECT_EQ(p.tf.focdist, 4);
   EXPECT_EQ(p.tf.aperture, 2.8);
   EXPECT_EQ(p.form.id, 7u);
-  EXPECT_TRUE(wire::has(p.form.format, wire::shift_in_pixels | wire::vertical | wire::camera_y_up));
+  EXPECT_TRUE(wire::has(p.form.format.value(), wire::shift_in_pixels | wire::vertical | wire::camera_y_up));
+}
+
+TEST(ReadOutgoing, ASinkMayHaveAFormOfItsOwn) {
+  XmlRpcValue tree;
+  tree["sinks"][0] = "udp://127.0.0.1:7000?preset=unreal_trackmen";
+  tree["sinks"][1] = "shm:7?id=3";
+  tree["preset"] = "aximmetry";
+  const auto p = read_ros_to_trk_parameters(tree, "c");
+  const auto unreal = transport::with_defaults(p.sinks.at(0).form, p.form);
+  EXPECT_EQ(unreal.format, std::uint32_t{wire::euler});
+  EXPECT_FALSE(unreal.sends_id);
+  const auto other = transport::with_defaults(p.sinks.at(1).form, p.form);
+  EXPECT_EQ(other.format, p.form.format);
+  EXPECT_EQ(other.id, 3u);
 }
 
 TEST(ReadOutgoing, TheReceiverThatTakesNoId) {

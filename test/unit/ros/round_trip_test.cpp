@@ -3,11 +3,16 @@
 
 #include "../camera/random_cameras.h"
 #include "../camera/worked_cases.h"
+#include "bridge/camera_pipeline.h"
+#include "bridge/outlet_writer.h"
+#include "bridge/params_to_trk.h"
+#include "bridge/tf_to_trk.h"
+#include "gated_sink.h"
+#include "ros/camera_info.h"
+#include "ros/camera_messages.h"
 #include "same_camera.h"
 #include "trk_bridge/camera/image.h"
-#include "ros/camera_pipeline.h"
-#include "ros/params_to_trk.h"
-#include "ros/tf_to_trk.h"
+#include "trk_bridge/ros/messages.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {
@@ -25,15 +30,15 @@ struct Case {
 constexpr std::uint32_t other_format =
     wire::studio_to_camera | wire::camera_y_up | wire::field_of_view | wire::diagonal;
 
-CameraOptions published_in(std::optional<std::uint32_t> format) {
-  CameraOptions options;
+bridge::CameraOptions published_in(std::optional<std::uint32_t> format) {
+  bridge::CameraOptions options;
   options.format = format;
   return options;
 }
 
 /// As a person gives it, in words.
-OutgoingForm form_of(const Case& c) {
-  OutgoingForm form;
+transport::SinkForm form_of(const Case& c) {
+  transport::SinkForm form;
   form.format = wire::format_from_words(wire::format_to_words(c.params.format)).value();
   return form;
 }
@@ -41,55 +46,77 @@ OutgoingForm form_of(const Case& c) {
 /// The messages of a case.
 class Incoming {
  public:
-  Incoming(const Case& c, std::optional<std::uint32_t> format)
-      : pipeline_(published_in(format), {"studio", "crane1", "crane1_optical"}, 50) {
+  Incoming(const Case& c, std::optional<std::uint32_t> format) : messages_({"studio", "crane1", "crane1_optical"}) {
+    bridge::CameraPipeline pipeline(published_in(format), 50);
     transport::Sample sample;
     sample.arrival = today;
     sample.record = c.constants;
-    (void)pipeline_.process(sample, 0);
+    messages_.make(pipeline.process(sample, 0));
     sample.record = c.params;
-    made = pipeline_.process(sample, 0);
+    made = pipeline.process(sample, 0);
+    messages_.make(made);
   }
-  const CameraPipeline* operator->() const { return &pipeline_; }
+  const CameraMessages* operator->() const { return &messages_; }
 
-  PipelineOutput made;
+  bridge::CameraUpdate made;
 
  private:
-  CameraPipeline pipeline_;
+  CameraMessages messages_;
 };
+
+/// What comes out of the outlet of a sink.
+struct Sent {
+  wire::CameraConstants constants;
+  wire::CameraParams params;
+};
+
+std::optional<Sent> sent(const Case& c, const std::optional<bridge::OutgoingSet>& set) {
+  if (!set || !set->constants) return std::nullopt;
+  test::Gate gate;
+  gate.open();
+  bridge::OutletWriter outlet(std::make_unique<test::GatedSink>(gate, "sink"), form_of(c), {true, true});
+  outlet.write(*set->constants);
+  outlet.write(set->params);
+  if (gate.constants().empty() || gate.params().empty()) return std::nullopt;
+  return Sent{gate.constants()[0], gate.params()[0]};
+}
+
+std::optional<Sent> sent_again(const Case& c, const Incoming& incoming) {
+  bridge::ParamsToTrk outgoing;
+  outgoing.take(from_msg(incoming->constants()));
+  return sent(c, outgoing.take(from_msg(incoming->params()), 0));
+}
 
 void expect_same_through_params(const Case& c, std::uint32_t published_format) {
   const Incoming incoming(c, published_format);
   ASSERT_TRUE(incoming.made.params);
-  ParamsToTrk outgoing(form_of(c));
-  outgoing.take(incoming->constants());
-  const auto made = outgoing.take(incoming->params(), 0);
-  ASSERT_TRUE(made.params && made.constants);
-  EXPECT_EQ(wire::format_to_words(made.params->format), wire::format_to_words(c.params.format));
-  EXPECT_EQ(made.params->counter, c.params.counter);
-  EXPECT_EQ(made.params->id, c.params.id);
-  const auto camera = camera::decode(*made.params, &*made.constants);
+  const auto made = sent_again(c, incoming);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(wire::format_to_words(made->params.format), wire::format_to_words(c.params.format));
+  EXPECT_EQ(made->params.counter, c.params.counter);
+  EXPECT_EQ(made->params.id, c.params.id);
+  const auto camera = camera::decode(made->params, &made->constants);
   ASSERT_TRUE(camera);
   EXPECT_TRUE(test::same_to_the_digits(*camera, c.camera));
 }
 
 void expect_same_through_tf(const Case& c) {
   const Incoming incoming(c, wire::euler);
-  ASSERT_TRUE(incoming.made.transform);
-  ASSERT_TRUE(incoming.made.camera_info);
-  TfToTrkOptions options;
+  ASSERT_TRUE(incoming.made.pose);
+  ASSERT_TRUE(incoming.made.calibration);
+  bridge::TfToTrkOptions options;
   options.chip.chip_width = c.constants.chip_width;
   options.chip.chip_height = c.constants.chip_height;
   options.chip.blank_left = c.constants.blank_left;
   options.chip.blank_right = c.constants.blank_right;
   options.chip.blank_top = c.constants.blank_top;
   options.chip.blank_bottom = c.constants.blank_bottom;
-  TfToTrk outgoing(form_of(c), options);
-  outgoing.take(incoming->camera_info(), 0);
-  const auto made = outgoing.make(incoming->transform(), 0);
-  ASSERT_TRUE(made.params && made.constants);
-  EXPECT_EQ(wire::format_to_words(made.params->format), wire::format_to_words(c.params.format));
-  const auto camera = camera::decode(*made.params, &*made.constants);
+  bridge::TfToTrk outgoing(options);
+  outgoing.take(from_msg(incoming->camera_info()), today, 0);
+  const auto made = sent(c, outgoing.make(to_isometry(incoming->transform().transform), today, 0));
+  ASSERT_TRUE(made);
+  EXPECT_EQ(wire::format_to_words(made->params.format), wire::format_to_words(c.params.format));
+  const auto camera = camera::decode(made->params, &made->constants);
   ASSERT_TRUE(camera);
   EXPECT_TRUE(test::same_to_the_eye(*camera, c.camera, c.constants));
 }
@@ -144,14 +171,12 @@ TEST(RoundTrip, EveryWorkedCaseThroughTfAndCameraInfo) {
 TEST(RoundTrip, AsReceivedIsTheVerySameRecord) {
   for (const auto& c : worked()) {
     const Incoming incoming(c, std::nullopt);
-    ParamsToTrk outgoing(form_of(c));
-    outgoing.take(incoming->constants());
-    const auto made = outgoing.take(incoming->params(), 0);
-    ASSERT_TRUE(made.params && made.constants);
+    const auto made = sent_again(c, incoming);
+    ASSERT_TRUE(made);
     // Words do not tell options that do not count, such as the axes of a matrix that is not there.
     auto wanted = c.params;
-    wanted.format = made.params->format;
-    EXPECT_EQ(*made.params, wanted);
+    wanted.format = made->params.format;
+    EXPECT_EQ(made->params, wanted);
   }
 }
 

@@ -223,7 +223,7 @@ TEST(Read, DefaultsNameTheCameraAndItsFrames) {
   EXPECT_EQ(c.frames.camera, "crane1");
   EXPECT_EQ(c.frames.optical, "crane1_optical");
   EXPECT_EQ(c.source->url, "udp://:7000");
-  EXPECT_EQ(std::get<endpoints::UdpEndpoint>(c.source->endpoint).port, 7000);
+  EXPECT_EQ(c.source->place, "udp://:7000");
   EXPECT_EQ(c.options.format, std::uint32_t{wire::euler});
   EXPECT_FALSE(c.options.id || c.options.constants);
   EXPECT_EQ(c.options.delay, 0);

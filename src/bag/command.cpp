@@ -1,0 +1,147 @@
+#include "command.h"
+
+#include <fstream>
+#include <iostream>
+#include <string_view>
+
+#include <unistd.h>
+
+#include "base/time_text.h"
+#include "cli/arguments.h"
+#include "cli/stop_signals.h"
+#include "ros/trk_to_ros_parameters.h"
+
+namespace trk_bridge::bag {
+namespace {
+
+constexpr const char* help =
+    "The bag holds what trk_to_ros publishes of a take, on /NAME/params, /NAME/constants, /NAME/camera_info, /tf and "
+    "/tf_static. Without --date or --start it lies on 1970-01-02, because a take does not contain its day. The take "
+    "holds one set of "
+    "parameters for every message of /NAME/params, or for every camera_info with a pose in tf; its time code is that "
+    "of the first stamp in UTC. A bag cut short by a crash gives what it holds.";
+
+bool ends_in(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+bool is_named_bag(std::string_view path) { return ends_in(path, ".bag") || ends_in(path, ".bag.active"); }
+
+bool begins_as_bag(const std::string& path) {
+  std::string begin(7, '\0');
+  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == "#ROSBAG";
+}
+
+template <typename T>
+T value_of(const tl::expected<T, std::string>& parsed, const char* option) {
+  if (!parsed) throw CLI::ValidationError(std::string(option) + ": " + parsed.error());
+  return *parsed;
+}
+
+}  // namespace
+
+Command::Command(CLI::App& app) : command_(app.add_subcommand("bag", "Make a bag of a take, or a take of a bag")) {
+  command_->footer(help);
+  command_->add_option("FROM", from_, "TAKE.trk or TAKE.bag")->required();
+  command_->add_option("TO", to_, "the other one")->required();
+  command_->add_flag("--overwrite", overwrite_, "Replace TO where it exists");
+  command_->add_option("--camera", camera_, "Its name in the bag (to a bag: camera; to a take: the only one)")
+      ->type_name("NAME");
+  command_
+      ->add_option("--field-rate", field_rate_,
+                   "Video fields a second (to a bag: 50; to a take: as trk bag recorded it, else 50)")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->type_name("HZ");
+  command_
+      ->add_option("--format", format_,
+                   "Format words, in quotes, of the params in the bag or the take (default: as_received; tf "
+                   "becomes euler)")
+      ->type_name("WORDS");
+  command_->add_option("--studio-frame", studio_frame_, "Default: studio")->type_name("FRAME");
+  command_
+      ->add_option("--camera-frame", camera_frame_,
+                   "The camera's own axes (to a bag: NAME; to a take: the frame of camera_info, which is optical)")
+      ->type_name("FRAME");
+  add_options_to_bag();
+  add_options_to_take();
+}
+
+void Command::add_options_to_bag() {
+  auto* start =
+      command_->add_option("--start", start_, "When the first field was, instead of its time code")->type_name("TIME");
+  auto* date = command_->add_option("--date", date_, "The day of the time code, in UTC")->type_name("YYYY-MM-DD");
+  start->excludes(date);
+  auto* optical = command_->add_option("--optical-frame", optical_frame_, "Default: NAME_optical")->type_name("FRAME");
+  auto* compression = command_->add_option("--compression", compression_, "Of the bag (default: none)")
+                          ->check(CLI::IsMember({"none", "bz2", "lz4"}));
+  to_bag_only_ = {start, date, optical, compression};
+}
+
+void Command::add_options_to_take() {
+  auto* input = command_->add_option("--input", input_, "params, or tf and camera_info (default: params if there are)")
+                    ->check(CLI::IsMember({"params", "tf"}));
+  auto* id =
+      command_->add_option("--id", to_take_options_.id, "Camera number in place of the one in the bag")->type_name("N");
+  auto* width = command_->add_option("--chip-width", to_take_options_.chip_width, "For a bag without constants")
+                    ->check(CLI::PositiveNumber)
+                    ->type_name("MM");
+  auto* height = command_->add_option("--chip-height", to_take_options_.chip_height, "For a bag without constants")
+                     ->check(CLI::PositiveNumber)
+                     ->type_name("MM");
+  auto* optical = command_->add_flag("--camera-frame-is-optical", to_take_options_.camera_frame_is_optical,
+                                     "The axes of --camera-frame are optical ones");
+  to_take_only_ = {input, id, width, height, optical};
+}
+
+void Command::refuse_options_of(const std::vector<CLI::Option*>& options, const char* way) const {
+  for (const auto* option : options) {
+    if (option->count() > 0) throw CLI::ValidationError(option->get_name() + " is for the way " + way);
+  }
+}
+
+cli::ExitCode Command::run() {
+  const cli::StopSignals signals;
+  cli::LongRun run(std::cerr, ::isatty(STDERR_FILENO) == 1);
+  const bool from_bag = is_named_bag(from_) || begins_as_bag(from_);
+  if (from_bag == is_named_bag(to_)) {
+    throw CLI::ValidationError(from_bag ? "both " + from_ + " and " + to_ + " are bags: TO must be a take"
+                                        : to_ + ": the name of a bag ends in .bag; " + from_ + " is none either");
+  }
+  return from_bag ? to_take(run) : to_bag(run);
+}
+
+cli::ExitCode Command::to_bag(cli::LongRun& run) {
+  refuse_options_of(to_take_only_, "from a bag to a take");
+  TakeToBagOptions options;
+  if (camera_) options.camera = *camera_;
+  if (format_) options.format = value_of(ros1::parse_published_format(*format_), "--format");
+  if (studio_frame_) options.studio_frame = *studio_frame_;
+  options.camera_frame = camera_frame_;
+  options.optical_frame = optical_frame_;
+  if (field_rate_) options.field_rate = *field_rate_;
+  if (date_) options.midnight = value_of(base::parse_date(*date_), "--date");
+  if (start_) options.start = value_of(base::parse_moment(*start_), "--start");
+  options.compression = compression_;
+  options.overwrite = overwrite_;
+  bag_of_take(from_, to_, options, run, std::cerr);
+  return cli::exit_good;
+}
+
+cli::ExitCode Command::to_take(cli::LongRun& run) {
+  refuse_options_of(to_bag_only_, "from a take to a bag");
+  if (to_take_options_.camera_frame_is_optical && !camera_frame_) {
+    throw CLI::ValidationError("--camera-frame-is-optical: needs --camera-frame, whose axes it describes");
+  }
+  to_take_options_.camera = camera_;
+  to_take_options_.camera_frame = camera_frame_;
+  to_take_options_.field_rate = field_rate_;
+  to_take_options_.overwrite = overwrite_;
+  if (studio_frame_) to_take_options_.studio_frame = *studio_frame_;
+  if (format_) to_take_options_.format = value_of(ros1::parse_published_format(*format_), "--format");
+  if (input_) to_take_options_.input = *input_ == "tf" ? Input::tf : Input::params;
+  take_of_bag(from_, to_, to_take_options_, run, std::cerr);
+  return cli::exit_good;
+}
+
+}  // namespace trk_bridge::bag

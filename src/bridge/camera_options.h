@@ -1,0 +1,23 @@
+// What is to be made of one camera's records.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "trk_bridge/wire/format.h"
+#include "trk_bridge/wire/record.h"
+
+namespace trk_bridge::bridge {
+
+struct CameraOptions {
+  /// None: records of every id are this camera's; then its source must serve this camera alone.
+  std::optional<std::uint32_t> id;
+  /// FormatBit mask of published parameters; none: they stay in the sender's format.
+  std::optional<std::uint32_t> format = wire::euler;
+  double delay = 0;                                ///< s, taken off every stamp
+  std::optional<wire::CameraConstants> constants;  ///< until the sender's own ones come
+  bool publish_tf = true;
+  bool publish_camera_info = true;
+};
+
+}  // namespace trk_bridge::bridge

@@ -1,0 +1,146 @@
+#include "camera_pipeline.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace trk_bridge::bridge {
+namespace {
+
+using camera::CameraReason;
+using camera::ConstantsChange;
+
+std::chrono::nanoseconds nanoseconds_of(double seconds) {
+  return std::chrono::nanoseconds(std::llround(seconds * 1e9));
+}
+
+}  // namespace
+
+CameraPipeline::CameraPipeline(const CameraOptions& options, double field_rate)
+    : options_(options), sequence_(field_rate), stamper_(nanoseconds_of(options.delay)), converter_(options.format) {
+  if (options.constants && converter_.take(*options.constants) != ConstantsChange::unsound) {
+    statistics_.constants = ConstantsOrigin::parameter;
+  }
+}
+
+bool CameraPipeline::wants(const wire::Record& record) const noexcept {
+  if (!options_.id) return true;
+  if (const auto* params = std::get_if<wire::CameraParams>(&record)) return params->id == *options_.id;
+  const auto* constants = std::get_if<wire::CameraConstants>(&record);
+  return constants != nullptr && (constants->id == *options_.id || constants->id == 0);
+}
+
+CameraUpdate CameraPipeline::initial() const noexcept {
+  CameraUpdate update;
+  if (converter_.outgoing() != nullptr) update.constants = *converter_.outgoing();
+  return update;
+}
+
+CameraUpdate CameraPipeline::process(const transport::Sample& sample, std::int64_t now) noexcept {
+  if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) return take(*params, sample, now);
+  if (const auto* constants = std::get_if<wire::CameraConstants>(&sample.record)) {
+    return take(*constants, sample.arrival);
+  }
+  return {};
+}
+
+CameraUpdate CameraPipeline::take(const wire::CameraConstants& constants, std::int64_t arrival) noexcept {
+  const bool own = !options_.id || constants.id == *options_.id;
+  const auto origin = own ? ConstantsOrigin::own : ConstantsOrigin::any_camera;
+  if (origin < statistics_.constants) return {};
+  const ConstantsChange change = converter_.take(constants);
+  if (change == ConstantsChange::unsound) {
+    ++statistics_.bad_constants;
+    return {};
+  }
+  statistics_.constants = origin;
+  if (change == ConstantsChange::unchanged) return {};
+  CameraUpdate update;
+  update.stamp = stamper_.unordered(arrival);
+  update.constants = *converter_.outgoing();
+  return update;
+}
+
+CameraUpdate CameraPipeline::take(const wire::CameraParams& params, const transport::Sample& sample,
+                                  std::int64_t now) noexcept {
+  if (!is_new(params, sample)) return {};
+  statistics_.last_new = now;
+  statistics_.sender = sample.sender;
+  statistics_.encoding = sample.origin;
+  statistics_.has_lens = sample.has_lens;
+  if (!sample.has_lens) ++statistics_.without_lens;
+
+  const camera::Converted converted = converter_.convert(params);
+  if (!converted.pose) return drop(converted.pose.error());
+  if (sample.has_lens && !converted.lens && converted.lens.error() == CameraReason::not_finite) {
+    return drop(converted.lens.error());
+  }
+  const auto stamped = stamp(sample.arrival);
+  if (!stamped) return {};
+
+  CameraUpdate update;
+  update.stamp = *stamped;
+  if (options_.publish_tf) update.pose = *converted.pose;
+  if (sample.has_lens) {
+    add_lens(converted, update);
+  } else {
+    statistics_.has_camera_info = false;
+  }
+  return update;
+}
+
+bool CameraPipeline::is_new(const wire::CameraParams& params, const transport::Sample& sample) noexcept {
+  if (statistics_.params > 0 && params.id != statistics_.last_id) ++statistics_.id_changes;
+  ++statistics_.params;
+  statistics_.last_id = params.id;
+  statistics_.last_format = params.format;
+  const bool counts = !sample.has_counter || base::is_new(sequence_.judge(params.counter));
+  if (!sample.has_counter) ++statistics_.without_counter;
+  statistics_.sequence = sequence_.counts();
+  statistics_.sequence.accepted += statistics_.without_counter;
+  return counts;
+}
+
+std::optional<std::int64_t> CameraPipeline::stamp(std::int64_t arrival) noexcept {
+  const auto stamp = stamper_.stamp(arrival);
+  if (!stamp) {
+    ++statistics_.dropped;
+    ++statistics_.unstampable;
+    return std::nullopt;
+  }
+  statistics_.held_stamps = stamper_.held();
+  statistics_.stamp_ahead = stamper_.ahead();
+  return stamp;
+}
+
+void CameraPipeline::add_lens(const camera::Converted& converted, CameraUpdate& update) noexcept {
+  if (converted.params) {
+    update.params = *converted.params;
+  } else {
+    ++statistics_.withheld;
+    statistics_.withhold_reason = converted.params.error();
+  }
+  if (!options_.publish_camera_info) return;
+  const auto calibration = calibrate(converted.lens);
+  statistics_.has_camera_info = calibration.has_value();
+  if (!calibration) {
+    ++statistics_.without_camera_info;
+    statistics_.info_reason = calibration.error();
+    return;
+  }
+  update.calibration = *calibration;
+  statistics_.fit_residual = calibration->distortion.residual;
+}
+
+camera::Result<camera::Calibration> CameraPipeline::calibrate(const camera::Result<camera::Lens>& lens) noexcept {
+  if (converter_.incoming() == nullptr) return tl::unexpected(CameraReason::constants_needed);
+  if (!lens) return tl::unexpected(lens.error());
+  return calibrator_.calibrate(*lens, *converter_.incoming());
+}
+
+CameraUpdate CameraPipeline::drop(CameraReason reason) noexcept {
+  ++statistics_.dropped;
+  statistics_.drop_reason = reason;
+  return {};
+}
+
+}  // namespace trk_bridge::bridge

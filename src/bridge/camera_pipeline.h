@@ -1,0 +1,96 @@
+// One camera's way in: its records judged, converted, stamped and calibrated.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "camera_options.h"
+#include "stamper.h"
+#include "trk_bridge/base/sequence.h"
+#include "trk_bridge/camera/calibration.h"
+#include "trk_bridge/camera/converter.h"
+#include "trk_bridge/transport/sample.h"
+
+namespace trk_bridge::bridge {
+
+/// Where the constants in use come from, the weightiest last.
+enum class ConstantsOrigin : std::uint8_t {
+  none,
+  parameter,
+  any_camera,  ///< received with id 0, which serve every camera of the source
+  own,         ///< received with the camera's id, or with any where it has none
+};
+
+/// What became of a camera's records so far. Trivially copyable. "New" are those that base::Sequence takes for new, and
+/// all of protocols without a counter.
+struct CameraStatistics {
+  std::uint64_t params = 0;               ///< parameter records for this camera, of any order
+  base::SequenceCounts sequence;          ///< `accepted` counts all new ones
+  std::uint64_t without_counter = 0;      ///< of the new ones, those of a protocol without a counter
+  std::uint64_t without_lens = 0;         ///< likewise without a lens: of these only the pose is published
+  std::uint64_t dropped = 0;              ///< new ones not published at all; `drop_reason` is why the last one was not
+  std::uint64_t unstampable = 0;          ///< of these, those whose time is outside of ROS time
+  std::uint64_t withheld = 0;             ///< params not published although tf was; `withhold_reason`
+  std::uint64_t without_camera_info = 0;  ///< new ones without a CameraInfo although it is wanted; `info_reason`
+  std::uint64_t bad_constants = 0;        ///< constants that leave no picture: ignored
+  std::uint64_t id_changes = 0;           ///< how often a record had another id than the one before
+  std::uint64_t held_stamps = 0;          ///< see Stamper
+  std::int64_t stamp_ahead = 0;           ///< ns, see Stamper
+  std::uint32_t last_id = 0;
+  std::uint32_t last_format = 0;  ///< as received
+  ConstantsOrigin constants = ConstantsOrigin::none;
+  camera::CameraReason drop_reason{}, withhold_reason{}, info_reason{};
+  bool has_lens = true;          ///< the last new one had one
+  bool has_camera_info = false;  ///< the last published one had one
+  double fit_residual = 0;       ///< pixels, of the last CameraInfo
+  transport::Sender sender;      ///< of the last new one, as are those below
+  const char* encoding = "";     ///< transport::Sample::origin
+  std::int64_t last_new = 0;     ///< steady clock, ns; counts once sequence.accepted > 0
+};
+
+/// What one sample gives to publish, all of one stamp.
+struct CameraUpdate {
+  std::int64_t stamp = 0;                          ///< ns since 1970 UTC; 0: no time is known (of constants alone)
+  std::optional<wire::CameraConstants> constants;  ///< they changed; they go with params in the published format
+  std::optional<wire::CameraParams> params;        ///< in the published format
+  std::optional<camera::Calibration> calibration;  ///< of CameraInfo
+  std::optional<Eigen::Isometry3d> pose;           ///< studio_T_camera, m
+};
+
+/// Not synchronised: one thread at a time. Never allocates.
+class CameraPipeline {
+ public:
+  /// `field_rate` in Hz, see base::Sequence.
+  CameraPipeline(const CameraOptions&, double field_rate);
+
+  /// Whether a record is this camera's.
+  bool wants(const wire::Record&) const noexcept;
+
+  /// What is known before the first sample: constants of the parameter where there are any.
+  CameraUpdate initial() const noexcept;
+
+  /// Takes a sample whose record wants() is true for. `now` is the steady clock's time of receipt, ns.
+  [[nodiscard]] CameraUpdate process(const transport::Sample&, std::int64_t now) noexcept;
+
+  const CameraStatistics& statistics() const noexcept { return statistics_; }
+
+ private:
+  CameraUpdate take(const wire::CameraConstants&, std::int64_t arrival) noexcept;
+  CameraUpdate take(const wire::CameraParams&, const transport::Sample&, std::int64_t now) noexcept;
+  bool is_new(const wire::CameraParams&, const transport::Sample&) noexcept;
+  std::optional<std::int64_t> stamp(std::int64_t arrival) noexcept;
+  void add_lens(const camera::Converted&, CameraUpdate&) noexcept;
+  camera::Result<camera::Calibration> calibrate(const camera::Result<camera::Lens>&) noexcept;
+  CameraUpdate drop(camera::CameraReason) noexcept;
+
+  CameraOptions options_;
+  base::Sequence sequence_;
+  Stamper stamper_;
+  camera::Converter converter_;
+  camera::Calibrator calibrator_;
+  CameraStatistics statistics_;
+};
+
+}  // namespace trk_bridge::bridge

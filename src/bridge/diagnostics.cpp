@@ -1,0 +1,206 @@
+#include "diagnostics.h"
+
+#include "diagnostic_text.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::bridge {
+namespace {
+
+using transport::SourceState;
+
+double rate_of(const CameraReport& now, const CameraReport& before) {
+  return rate_between(before.camera.sequence.accepted, now.camera.sequence.accepted, before.time, now.time);
+}
+
+std::string ids_text(const ReaderStatistics& reader) {
+  std::string text;
+  for (std::uint32_t i = 0; i < reader.unknown_id_count; ++i) {
+    text += (i == 0 ? "" : ", ") + std::to_string(reader.unknown_ids[i]);
+  }
+  return text;
+}
+
+std::string fault_text(const ReaderStatistics& reader) {
+  return reader.has_fault ? describe(reader.last_fault) : std::string("none");
+}
+
+const char* constants_text(ConstantsOrigin origin) {
+  switch (origin) {
+    case ConstantsOrigin::none:
+      return "no";
+    case ConstantsOrigin::parameter:
+      return "from the parameter";
+    case ConstantsOrigin::any_camera:
+      return "received with id 0";
+    case ConstantsOrigin::own:
+      return "received";
+  }
+  return "no";
+}
+
+std::string camera_info_text(const CameraStatistics& camera) {
+  if (camera.has_camera_info) return "yes";
+  if (!camera.has_lens) return "no: the records have no lens";
+  if (camera.without_camera_info > 0) return "no: " + camera::describe(camera.info_reason);
+  return "no";
+}
+
+/// Before the first parameters of this camera.
+Finding silence(const CameraReport& now, const CameraOptions& options) {
+  switch (now.source.state) {
+    case SourceState::waiting:
+      return {Condition::waiting, Level::stale, now.source.waiting_for};
+    case SourceState::nothing_valid:
+      return {Condition::nothing_valid, Level::warn, "datagrams come but none is trk: " + fault_text(now.reader)};
+    case SourceState::only_refused:
+      return {Condition::only_refused, Level::warn,
+              "datagrams come, but only from senders that are not allowed, last " +
+                  transport::to_string(now.source.last_refused)};
+    default:
+      break;
+  }
+  if (options.id && now.reader.unknown_id_records > 0) {
+    return {Condition::other_ids_only, Level::warn,
+            "parameters come, but none with id " + std::to_string(*options.id) + "; seen: " + ids_text(now.reader)};
+  }
+  return {Condition::constants_only, Level::warn, "records come, but no parameters of this camera yet"};
+}
+
+Finding state(const CameraReport& now, const CameraReport& before, const CameraOptions& options, double field_rate) {
+  if (now.source.state == SourceState::failed) {
+    return {Condition::failed, Level::error, "the source failed: " + now.source.error};
+  }
+  if (now.source.state == SourceState::ended) return {Condition::ended, Level::ok, "ended"};
+  if (now.camera.sequence.accepted == 0) return silence(now, options);
+  const double age = seconds_between(now.camera.last_new, now.time);
+  if (age > silence_after(field_rate)) {
+    if (now.camera.sequence.duplicates > before.camera.sequence.duplicates) {
+      return {Condition::counter_stands, Level::warn,
+              "nothing new for " + seconds_text(age) + ": records come, but their counter stands still"};
+    }
+    const std::string why = now.source.waiting_for.empty() ? "" : "; waiting for " + now.source.waiting_for;
+    return {Condition::nothing_new, Level::warn, "nothing new for " + seconds_text(age) + why};
+  }
+  return {
+      Condition::receiving, Level::ok,
+      "receiving from " + transport::to_string(now.camera.sender) + " at " + rate_text(rate_of(now, before)) + " Hz"};
+}
+
+void add_source_findings(std::vector<Finding>& found, const CameraReport& now, const CameraReport& before) {
+  const auto warn = [&found](Condition condition, std::string text) {
+    found.push_back({condition, Level::warn, std::move(text)});
+  };
+  const bool nothing_valid = now.source.state == SourceState::nothing_valid;
+  if (now.source.malformed > before.source.malformed && !nothing_valid) {
+    warn(Condition::malformed, "malformed records: " + fault_text(now.reader));
+  }
+  if (now.source.refused > before.source.refused && now.source.state != SourceState::only_refused) {
+    warn(Condition::refused,
+         "datagrams from senders that are not allowed, last " + transport::to_string(now.source.last_refused));
+  }
+  if (now.source.kernel_drops > before.source.kernel_drops) {
+    warn(Condition::kernel_drops, "the kernel dropped datagrams: the receive buffer was full");
+  }
+  if (now.reader.unknown_id_records > before.reader.unknown_id_records) {
+    warn(Condition::unknown_ids, "records with ids that no camera has: " + ids_text(now.reader));
+  }
+}
+
+void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, const CameraReport& before,
+                         const CameraOptions& options) {
+  const auto warn = [&found](Condition condition, std::string text) {
+    found.push_back({condition, Level::warn, std::move(text)});
+  };
+  const auto& camera = now.camera;
+  const auto& old = before.camera;
+  if (camera.sequence.lost > old.sequence.lost) {
+    warn(Condition::lost, "lost " + std::to_string(camera.sequence.lost - old.sequence.lost));
+  }
+  if (camera.id_changes > old.id_changes) {
+    warn(Condition::several_ids, "the id changes: give the camera the id it is to follow");
+  }
+  if (camera.unstampable > old.unstampable) {
+    warn(Condition::unstampable, "records dropped: their time is outside of 1970 to 2106");
+  }
+  if (camera.dropped - camera.unstampable > old.dropped - old.unstampable) {
+    warn(Condition::dropped, "records dropped: " + camera::describe(camera.drop_reason));
+  }
+  if (camera.bad_constants > old.bad_constants) {
+    warn(Condition::bad_constants, "constants ignored: " + camera::describe(camera::CameraReason::bad_constants));
+  }
+  const bool no_constants = camera.constants == ConstantsOrigin::none;
+  if (camera.withheld > old.withheld && camera.withhold_reason == camera::CameraReason::constants_needed) {
+    warn(Condition::withheld,
+         "no constants yet: format '" + wire::format_to_words(camera.last_format) + "' needs them");
+  } else if (camera.withheld > old.withheld) {
+    warn(Condition::withheld, "params withheld: " + camera::describe(camera.withhold_reason));
+  } else if (!camera.has_lens) {
+    found.push_back({Condition::pose_only, Level::ok, "the records have no lens: nothing but tf is published"});
+  } else if (no_constants && options.publish_camera_info && camera.sequence.accepted > 0) {
+    warn(Condition::no_constants, "no constants yet: no camera_info");
+  }
+  if (!no_constants && camera.without_camera_info > old.without_camera_info) {
+    warn(Condition::no_camera_info, "no camera_info: " + camera::describe(camera.info_reason));
+  }
+  if (camera.has_camera_info && camera.fit_residual > visible_pixels) {
+    warn(Condition::lens_inexact,
+         "camera_info tells the distortion to " + pixels_text(camera.fit_residual) + " px, no better");
+  }
+  if (now.markers.not_drawn > before.markers.not_drawn) {
+    warn(Condition::no_markers, "no markers: " + describe(now.markers.reason));
+  }
+  if (camera.held_stamps > old.held_stamps) {
+    warn(Condition::stamps_held, "the clock stands or stepped back: stamps are " +
+                                     seconds_text(seconds_between(0, camera.stamp_ahead)) + " ahead");
+  }
+}
+
+}  // namespace
+
+std::vector<Finding> findings(const CameraReport& now, const CameraReport& before, const CameraOptions& options,
+                              double field_rate) {
+  std::vector<Finding> found{state(now, before, options, field_rate)};
+  add_source_findings(found, now, before);
+  add_camera_findings(found, now, before, options);
+  return found;
+}
+
+void fill(Status& status, const std::vector<Finding>& found, const CameraReport& now, const CameraReport& before) {
+  status.hardware_id = now.source_name;
+  summarize(found, status);
+
+  const auto& camera = now.camera;
+  const bool any = camera.sequence.accepted > 0;
+  status.add("source", now.source_name);
+  status.add("rate (Hz)", rate_text(rate_of(now, before)));
+  status.add("received", camera.sequence.accepted);
+  status.add("lost", camera.sequence.lost);
+  status.add("out of order", camera.sequence.late);
+  status.add("duplicate", camera.sequence.duplicates);
+  status.add("restarts", camera.sequence.restarts);
+  status.add("malformed", now.source.malformed);
+  status.add("last malformed", fault_text(now.reader));
+  status.add("refused senders", now.source.refused);
+  status.add("kernel drops", now.source.kernel_drops);
+  status.add("overwritten", now.source.overwritten);
+  status.add("reattached", now.source.reattached);
+  status.add("unknown ids", now.reader.unknown_id_records);
+  status.add("unknown format bits", now.source.unknown_format_bits);
+  status.add("age of last sample (s)",
+             any ? rate_text(seconds_between(camera.last_new, now.time)) : std::string("never"));
+  status.add("sender", transport::to_string(camera.sender));
+  status.add("encoding", any ? camera.encoding : "none yet");
+  status.add("format", any ? wire::format_to_words(camera.last_format) : std::string("none yet"));
+  status.add("constants known", constants_text(camera.constants));
+  status.add("constants ignored", camera.bad_constants);
+  status.add("without lens", camera.without_lens);
+  status.add("withheld", camera.withheld);
+  status.add("dropped", camera.dropped);
+  status.add("camera_info", camera_info_text(camera));
+  status.add("lens fit residual (px)",
+             camera.has_camera_info ? std::to_string(camera.fit_residual) : std::string("none"));
+  status.add("stamps held", camera.held_stamps);
+  status.add("last error", now.source.error.empty() ? std::string("none") : now.source.error);
+}
+
+}  // namespace trk_bridge::bridge

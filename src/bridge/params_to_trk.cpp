@@ -1,0 +1,29 @@
+#include "params_to_trk.h"
+
+namespace trk_bridge::bridge {
+
+ParamsToTrk::ParamsToTrk(const std::optional<wire::CameraConstants>& constants) noexcept : newest_(constants) {
+  statistics_.constants_known = constants.has_value();
+}
+
+void ParamsToTrk::take(const wire::CameraConstants& constants) noexcept {
+  if (!camera::check(constants)) {
+    ++statistics_.bad_constants;
+    return;
+  }
+  newest_ = constants;
+  statistics_.constants_known = statistics_.constants_received = true;
+}
+
+OutgoingSet ParamsToTrk::take(const wire::CameraParams& params, std::int64_t now) noexcept {
+  ++statistics_.received;
+  statistics_.last_received = now;
+  statistics_.last_format = params.format;
+  OutgoingSet set{std::nullopt, params};
+  if (!newest_) return set;
+  newest_->id = params.id;
+  if (given_.take(*newest_) == camera::ConstantsChange::changed) set.constants = newest_;
+  return set;
+}
+
+}  // namespace trk_bridge::bridge

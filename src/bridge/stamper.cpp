@@ -1,0 +1,26 @@
+#include "stamper.h"
+
+namespace trk_bridge::bridge {
+
+std::optional<std::int64_t> Stamper::stamp(std::int64_t arrival) noexcept {
+  // An arrival from outside of ROS time must not push the stamps of all that come after it.
+  if (arrival < 0 || arrival > latest_stamp) return std::nullopt;
+  const std::int64_t wanted = arrival - delay_;
+  std::int64_t given = wanted;
+  if (newest_ > 0 && given <= newest_) {
+    given = newest_ + least_step;
+    ++held_;
+  }
+  if (!can_be_stamp(given)) return std::nullopt;
+  newest_ = given;
+  ahead_ = given - wanted;
+  return given;
+}
+
+std::int64_t Stamper::unordered(std::int64_t arrival) const noexcept {
+  if (arrival < 0 || arrival > latest_stamp) return 0;
+  const std::int64_t wanted = arrival - delay_;
+  return can_be_stamp(wanted) ? wanted : 0;
+}
+
+}  // namespace trk_bridge::bridge

@@ -1,0 +1,71 @@
+// What nodes have in common, as programs and as nodelets. A `Node` is made from (node handle, private node handle, full
+// name) and runs from construction to destruction.
+#pragma once
+
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nodelet/nodelet.h>
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/node_handle.h>
+#include <ros/this_node.h>
+
+namespace trk_bridge::nodes {
+
+/// All private parameters; an invalid value when there are none.
+inline XmlRpc::XmlRpcValue private_parameters(const ::ros::NodeHandle& private_node) {
+  XmlRpc::XmlRpcValue tree;
+  private_node.getParam(private_node.getNamespace(), tree);
+  return tree;
+}
+
+/// The last element of a namespace names the camera in it; `camera` in the root.
+inline std::string camera_name_of(const std::string& name_space) {
+  const std::string last = name_space.substr(name_space.find_last_of('/') + 1);
+  return last.empty() ? "camera" : last;
+}
+
+/// Runs a `Node` until ROS shuts down. Returns the exit status: 1 and a fatal message with the reason when it cannot
+/// start, 2 for arguments that nobody knows.
+template <typename Node>
+int node_main(int argc, char** argv, const char* name) {
+  std::vector<std::string> arguments;
+  ::ros::removeROSArgs(argc, argv, arguments);
+  ::ros::init(argc, argv, name);
+  if (arguments.size() > 1) {
+    ROS_FATAL_STREAM(name << ": unknown argument '" << arguments[1] << "'; it takes parameters (_name:=value) alone");
+    return 2;
+  }
+  // Outlives the catch: with the last handle ROS shuts down, and the log with it.
+  const ::ros::NodeHandle node;
+  try {
+    const Node running(node, ::ros::NodeHandle("~"), ::ros::this_node::getName());
+    ::ros::spin();
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM(::ros::this_node::getName() << " cannot start: " << error.what());
+    return 1;
+  }
+  return 0;
+}
+
+/// Runs a `Node` from loading to unloading. A failed start is a fatal message with the reason, and an exception, so
+/// that loading fails.
+template <typename Node>
+class RunningNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    try {
+      running_ = std::make_unique<Node>(getNodeHandle(), getPrivateNodeHandle(), getName());
+    } catch (const std::exception& error) {
+      NODELET_FATAL_STREAM(getName() << " cannot start: " << error.what());
+      throw;
+    }
+  }
+
+  std::unique_ptr<Node> running_;
+};
+
+}  // namespace trk_bridge::nodes

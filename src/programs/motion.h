@@ -1,0 +1,30 @@
+// The motion that the writing programs send: one parameter moves after another (document, section 6.2).
+#pragma once
+
+#include <trk/trk_struct.h>
+
+#include "trk_bridge/camera/converter.h"
+
+namespace trk_bridge::programs {
+
+class Motion {
+ public:
+  /// `format` must be one that records may be made in.
+  explicit Motion(unsigned format);
+
+  /// Their fake chip agrees with the aspect option of the format.
+  trkCameraConstants constants() const;
+  /// Set `index` of the motion, below `sets`; its counter is `index` + 1. Throws std::runtime_error where the format
+  /// cannot express the camera.
+  trkCameraParams params(unsigned index) const;
+
+  /// x, y, z, pan, tilt, roll, field of view, center shift in x and in y, each of which swings once about its rest.
+  static constexpr unsigned moved_parameters = 9;
+  static constexpr unsigned sets_per_parameter = 251;
+  static constexpr unsigned sets = moved_parameters * sets_per_parameter;
+
+ private:
+  camera::Converter converter_;
+};
+
+}  // namespace trk_bridge::programs

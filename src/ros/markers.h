@@ -1,0 +1,71 @@
+// Markers: what they have in common, and a camera in them, for viewers that take no plugins.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <geometry_msgs/Point.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <visualization_msgs/Marker.h>
+#include <visualization_msgs/MarkerArray.h>
+#include <Eigen/Core>
+
+#include "bridge/camera_info.h"
+#include "bridge/diagnostics.h"
+#include "camera/figure.h"
+
+namespace trk_bridge::ros1 {
+
+/// What markers of one kind have in common.
+struct MarkerLook {
+  int type = visualization_msgs::Marker::LINE_LIST;
+  float red = 0, green = 0, blue = 0, alpha = 1;  ///< 0..1
+  double size = 1;  ///< m: a line's width, a point's diameter, a letter's height; 1 for triangles
+};
+
+/// A marker to be added, with id 0, at the origin of `frame` and without points; unstamped.
+visualization_msgs::Marker make_marker(const std::string& name_space, const MarkerLook&, const std::string& frame);
+
+/// m.
+geometry_msgs::Point to_point(const Eigen::Vector3d&);
+
+/// Where the frustum begins, m.
+inline constexpr double marker_near = 0.2;
+
+/// A camera as markers: frustum, optical axis, plane in focus, name. Makes four of every sample, each with id 0 in a
+/// namespace of its own: `<camera>/frustum` (LINE_LIST, marker_near to `far`), `<camera>/axis` (LINE_LIST, to `far`),
+/// `<camera>/focus` (TRIANGLE_LIST) and `<camera>/name` (TEXT_VIEW_FACING, above the camera). They are in the optical
+/// frame, m, and fixed where that was at their stamp. What cannot be drawn has the action DELETE: the plane in focus
+/// where camera::draws_focus(focdist) is false, everything where the lens cannot be drawn. Not synchronised. The border
+/// is computed only when the lens changes.
+class CameraMarkers {
+ public:
+  /// `far` (m) is more than marker_near; markers are to vanish `lifetime` seconds after the last ones came.
+  CameraMarkers(const std::string& camera, const std::string& optical_frame, double far, double lifetime);
+
+  /// The markers of a sample, stamped as `info` is. `focdist` in m.
+  const visualization_msgs::MarkerArray& draw(const sensor_msgs::CameraInfo& info, double focdist);
+  /// All four to be deleted.
+  const visualization_msgs::MarkerArray& remove(const ::ros::Time& stamp);
+  /// Whether the last call left anything to be seen.
+  bool visible() const noexcept { return visible_; }
+
+  const bridge::MarkerStatistics& statistics() const noexcept { return statistics_; }
+
+ private:
+  void take_lens();
+  void take_focus(double focdist);
+  void stamp(const ::ros::Time&);
+
+  double far_;
+  bool visible_ = false;
+  bridge::CameraInfo info_;                  // that came last
+  std::optional<bridge::CameraInfo> known_;  // whose border, or whose fault, is known
+  std::optional<camera::ImageBorder> border_;
+  double focdist_ = 0;  ///< that is drawn
+  visualization_msgs::MarkerArray markers_;
+  bridge::MarkerStatistics statistics_;
+};
+
+}  // namespace trk_bridge::ros1

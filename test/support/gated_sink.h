@@ -1,0 +1,126 @@
+// A sink whose writes wait for the test's permission, to stand for a disk or a segment that is slow.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trk_bridge/transport/endpoint.h"
+
+namespace trk_bridge::test {
+
+/// What a gated sink was given, and whether it may go on. Any thread.
+class Gate {
+ public:
+  /// So many writes more may end; without a number, all of them.
+  void open(std::size_t writes = std::numeric_limits<std::size_t>::max() / 2) {
+    change([&] { allowed_ += writes; });
+  }
+  void set_fault(const std::optional<transport::SinkFault>& fault) {
+    change([&] { fault_ = fault; });
+  }
+
+  /// Whether that many records, or more, were written within the deadline.
+  bool has_written(std::size_t count) {
+    return becomes([&] { return records_.size() >= count; });
+  }
+  /// Whether a write waits for permission.
+  bool is_blocking() {
+    return becomes([&] { return waiting_; });
+  }
+  std::size_t count() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return records_.size();
+  }
+  std::vector<wire::Record> records() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return records_;
+  }
+  std::vector<wire::CameraParams> params() const { return all<wire::CameraParams>(); }
+  std::vector<wire::CameraConstants> constants() const { return all<wire::CameraConstants>(); }
+  bool is_closed() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return closed_;
+  }
+
+  transport::Written write(const wire::Record& record) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    waiting_ = true;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return allowed_ > 0; });
+    waiting_ = false;
+    --allowed_;
+    if (fault_) return tl::unexpected(*fault_);
+    records_.push_back(record);
+    changed_.notify_all();
+    return {};
+  }
+  void close() {
+    change([&] { closed_ = true; });
+  }
+
+ private:
+  template <typename Action>
+  void change(const Action& action) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    action();
+    changed_.notify_all();
+  }
+  template <typename Condition>
+  bool becomes(const Condition& condition) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(10), condition);
+  }
+  template <typename Record>
+  std::vector<Record> all() const {
+    std::vector<Record> found;
+    for (const auto& record : records()) {
+      if (const auto* one = std::get_if<Record>(&record)) found.push_back(*one);
+    }
+    return found;
+  }
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t allowed_ = 0;
+  bool waiting_ = false, closed_ = false;
+  std::optional<transport::SinkFault> fault_;
+  std::vector<wire::Record> records_;
+};
+
+class GatedSink final : public transport::Sink {
+ public:
+  GatedSink(Gate& gate, std::string name) : gate_(gate), name_(std::move(name)) {}
+  std::string name() const override { return name_; }
+
+ private:
+  transport::Written put(const wire::CameraParams& params) override { return gate_.write(params); }
+  transport::Written put(const wire::CameraConstants& constants) override { return gate_.write(constants); }
+  transport::Written finish() override {
+    gate_.close();
+    return {};
+  }
+
+  Gate& gate_;
+  const std::string name_;
+};
+
+/// An endpoint of a gate that outlives what is opened.
+inline transport::SinkEndpoint endpoint_of(Gate& gate, transport::Blocking blocking = transport::Blocking::never,
+                                           const transport::SinkForm& form = {}, const std::string& name = "gate") {
+  transport::SinkEndpoint endpoint;
+  endpoint.url = "test:" + name;
+  endpoint.form = form;
+  endpoint.blocking = blocking;
+  endpoint.open = [&gate, name] { return std::make_unique<GatedSink>(gate, name); };
+  return endpoint;
+}
+
+}  // namespace trk_bridge::test

@@ -1,0 +1,197 @@
+#include "bridge/diagnostics.h"
+
+#include <gmock/gmock.h>
+
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::bridge {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using transport::SourceState;
+
+constexpr std::int64_t second = 1'000'000'000;
+
+class Diagnostics : public ::testing::Test {
+ protected:
+  Diagnostics() {
+    now.source_name = before.source_name = "udp port 7000";
+    before.time = 10 * second;
+    now.time = 12 * second;
+    now.source.state = SourceState::receiving;
+    now.camera.constants = ConstantsOrigin::own;
+    now.camera.sequence.accepted = 100;
+    now.camera.last_new = now.time - second / 50;
+  }
+
+  Status status() {
+    Status s;
+    fill(s, findings(now, before, options, 50), now, before);
+    return s;
+  }
+
+  std::string value(const std::string& key) {
+    for (const auto& [known, text] : status().values) {
+      if (known == key) return text;
+    }
+    return "no such key";
+  }
+
+  void expect(Level level, const std::string& text) {
+    const auto s = status();
+    EXPECT_EQ(static_cast<int>(s.level), static_cast<int>(level)) << s.message;
+    EXPECT_THAT(s.message, HasSubstr(text));
+  }
+
+  CameraOptions options;
+  CameraReport now, before;
+};
+
+TEST_F(Diagnostics, ReceivingIsOkWithItsRate) {
+  expect(Level::ok, "receiving from");
+  EXPECT_EQ(value("rate (Hz)"), "50.00");
+  EXPECT_EQ(value("age of last sample (s)"), "0.02");
+  EXPECT_EQ(status().hardware_id, "udp port 7000");
+}
+
+TEST_F(Diagnostics, NothingEverIsStaleAndSaysWhatForItWaits) {
+  now.camera = {};
+  now.source.state = SourceState::waiting;
+  now.source.waiting_for = "slot 7: no segment";
+  expect(Level::stale, "slot 7: no segment");
+  EXPECT_EQ(value("age of last sample (s)"), "never");
+}
+
+TEST_F(Diagnostics, DatagramsThatAreNotTrk) {
+  now.camera = {};
+  now.source.state = SourceState::nothing_valid;
+  now.source.malformed = 3;
+  now.reader.has_fault = true;
+  now.reader.last_fault = wire::Fault{wire::Reason::bad_magic};
+  expect(Level::warn, "datagrams come but none is trk: " + wire::describe({wire::Reason::bad_magic}));
+  EXPECT_EQ(value("malformed"), "3");
+}
+
+TEST_F(Diagnostics, SendersThatAreNotAllowed) {
+  now.camera = {};
+  now.source.state = SourceState::only_refused;
+  now.source.last_refused = {transport::SenderKind::ipv4, {192, 0, 2, 7}, 50123};
+  expect(Level::warn, "only from senders that are not allowed, last 192.0.2.7:50123");
+}
+
+TEST_F(Diagnostics, OtherIdsOnly) {
+  now.camera = {};
+  options.id = 7;
+  now.reader.unknown_id_records = 5;
+  now.reader.unknown_ids = {3, 4};
+  now.reader.unknown_id_count = 2;
+  expect(Level::warn, "none with id 7; seen: 3, 4");
+}
+
+TEST_F(Diagnostics, ASilenceOfMoreThanASecondWarns) {
+  now.camera.last_new = now.time - 3 * second;
+  expect(Level::warn, "nothing new for 3.0 s");
+}
+
+TEST_F(Diagnostics, ACounterThatStandsStillIsToldAsSuch) {
+  now.camera.last_new = now.time - 3 * second;
+  now.camera.sequence.duplicates = 150;
+  expect(Level::warn, "counter stands still");
+}
+
+TEST_F(Diagnostics, AFailedSourceIsAnErrorWithItsReason) {
+  now.source.state = SourceState::failed;
+  now.source.error = "udp port 7000: the network is down";
+  expect(Level::error, "the network is down");
+  EXPECT_EQ(value("last error"), "udp port 7000: the network is down");
+}
+
+TEST_F(Diagnostics, AFileThatEndedIsInOrder) {
+  now.source.state = SourceState::ended;
+  expect(Level::ok, "ended");
+}
+
+TEST_F(Diagnostics, NoConstantsYet) {
+  now.camera.constants = ConstantsOrigin::none;
+  expect(Level::warn, "no constants yet");
+  options.publish_camera_info = false;
+  expect(Level::ok, "receiving");
+}
+
+TEST_F(Diagnostics, WithheldNamesTheFormatThatNeedsConstants) {
+  now.camera.constants = ConstantsOrigin::none;
+  now.camera.withheld = 100;
+  now.camera.withhold_reason = camera::CameraReason::constants_needed;
+  now.camera.last_format = wire::euler | wire::field_of_view;
+  expect(Level::warn, "no constants yet: format 'euler");
+  EXPECT_EQ(value("withheld"), "100");
+}
+
+TEST_F(Diagnostics, OnlyGrowthIsAFinding) {
+  for (auto* report : {&now, &before}) {
+    report->source.malformed = 4;
+    report->source.kernel_drops = 4;
+    report->source.refused = 4;
+    report->reader.unknown_id_records = 4;
+    report->camera.sequence.lost = 4;
+    report->camera.dropped = 4;
+    report->camera.bad_constants = 4;
+    report->camera.held_stamps = 4;
+    report->camera.id_changes = 4;
+  }
+  expect(Level::ok, "receiving");
+  EXPECT_EQ(value("lost"), "4");
+
+  ++now.camera.sequence.lost;
+  expect(Level::warn, "lost 1");
+  ++now.source.kernel_drops;
+  expect(Level::warn, "the kernel dropped");
+  ++now.camera.dropped;
+  now.camera.drop_reason = camera::CameraReason::not_a_rotation;
+  expect(Level::warn, camera::describe(camera::CameraReason::not_a_rotation));
+}
+
+TEST_F(Diagnostics, NoCameraInfoSaysWhy) {
+  now.camera.without_camera_info = 100;
+  now.camera.info_reason = camera::CameraReason::not_monotonic;
+  expect(Level::warn, "no camera_info: " + camera::describe(camera::CameraReason::not_monotonic));
+}
+
+TEST_F(Diagnostics, ALensThatCameraInfoTellsInexactlyIsToldWithItsError) {
+  now.camera.has_camera_info = true;
+  now.camera.fit_residual = 0.01;
+  expect(Level::ok, "receiving");
+  now.camera.fit_residual = 0.047;
+  expect(Level::warn, "camera_info tells the distortion to 0.047 px, no better");
+  now.camera.has_camera_info = false;
+  expect(Level::ok, "receiving");
+}
+
+TEST_F(Diagnostics, TheEncodingIsThatOfTheLastNewRecord) {
+  now.camera.encoding = "binary identified_lp64, layout guessed";
+  EXPECT_EQ(value("encoding"), "binary identified_lp64, layout guessed");
+  now.camera = {};
+  EXPECT_EQ(value("encoding"), "none yet");
+}
+
+TEST_F(Diagnostics, RecordsWithoutALensAreInOrderAndToldAsSuch) {
+  now.camera.constants = ConstantsOrigin::none;
+  now.camera.has_lens = false;
+  now.camera.without_lens = 100;
+  expect(Level::ok, "the records have no lens");
+  EXPECT_THAT(status().message, Not(HasSubstr("constants")));
+  EXPECT_EQ(value("without lens"), "100");
+  EXPECT_EQ(value("camera_info"), "no: the records have no lens");
+}
+
+TEST_F(Diagnostics, NoMarkersSaysWhy) {
+  now.markers.not_drawn = before.markers.not_drawn = 5;
+  expect(Level::ok, "receiving");
+  now.markers.not_drawn = 6;
+  now.markers.reason = {InfoReason::no_lens, camera::CameraReason::too_wide};
+  expect(Level::warn, "no markers: " + camera::describe(camera::CameraReason::too_wide));
+}
+
+}  // namespace
+}  // namespace trk_bridge::bridge

@@ -1,0 +1,206 @@
+#include "bridge/outlet.h"
+
+#include <cerrno>
+
+#include <gmock/gmock.h>
+
+#include "file/take_file.h"
+#include "gated_sink.h"
+#include "temporary_directory.h"
+#include "trk_bridge/endpoints/endpoints.h"
+#include "udp.h"
+
+namespace trk_bridge::bridge {
+namespace {
+
+using test::constants;
+using test::endpoint_of;
+using test::Gate;
+using test::params;
+using transport::Blocking;
+
+/// Of a sink that blocks from its first write on: one record is with it, the others wait.
+template <typename Use>
+void with_blocked(Gate& gate, Outlet& outlet, const Use& use) {
+  outlet.write(constants());
+  ASSERT_TRUE(gate.is_blocking());
+  use();
+}
+
+TEST(Outlet, ASinkThatNeverBlocksIsWrittenInTheCallersThread) {
+  Gate gate;
+  gate.open();
+  Outlet outlet(endpoint_of(gate), {});
+  outlet.write(params(1));
+  EXPECT_EQ(gate.params().size(), 1u);
+  EXPECT_FALSE(outlet.queue());
+  EXPECT_EQ(outlet.statistics().sent.params, 1u);
+}
+
+TEST(Outlet, OneThatBlocksDoesNotKeepTheOthersFromTheirRate) {
+  constexpr std::uint64_t sets = 5000;
+  Gate live, segment, take;
+  live.open();
+  Outlet to_live(endpoint_of(live), {});
+  Outlet to_segment(endpoint_of(segment, Blocking::attaching), {});
+  Outlet to_take(endpoint_of(take, Blocking::storage), {});
+  for (std::uint64_t counter = 1; counter <= sets; ++counter) {
+    for (auto* outlet : {&to_segment, &to_take, &to_live}) outlet->write(params(counter));
+    ASSERT_EQ(live.count(), counter) << "at once, though the others wait";
+  }
+  EXPECT_EQ(segment.count() + take.count(), 0u);
+  segment.open();
+  take.open();
+  EXPECT_TRUE(to_segment.close() && to_take.close());
+  const auto taken = take.params();
+  EXPECT_EQ(taken.size(), sets) << "nothing of a recording is lost while the queue has room";
+  for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_EQ(taken[i].counter, i + 1);
+}
+
+TEST(Outlet, AttachingDropsTheOldestAndCountsThem) {
+  constexpr std::uint64_t sets = 500;
+  Gate gate;
+  std::uint64_t losses = 0;
+  OutletOptions options;
+  options.listener = [&losses](const Loss& loss) {
+    losses += std::get<OutletReason>(loss.cause) == OutletReason::outdated;
+  };
+  Outlet outlet(endpoint_of(gate, Blocking::attaching), options);
+  with_blocked(gate, outlet, [&] {
+    outlet.write(constants(1920));
+    for (std::uint64_t counter = 1; counter <= sets; ++counter) outlet.write(params(counter));
+  });
+  const auto queue = outlet.queue();
+  ASSERT_TRUE(queue);
+  EXPECT_GT(queue->drops, 0u);
+  EXPECT_EQ(queue->drops, losses);
+  EXPECT_FALSE(queue->failed);
+  const auto queued = queue->queued;
+  gate.open();
+  ASSERT_TRUE(outlet.close());
+  EXPECT_EQ(gate.constants(), (std::vector<wire::CameraConstants>{constants(), constants(1920)})) << "state is kept";
+  const auto written = gate.params();
+  ASSERT_EQ(written.size(), sets - losses);
+  EXPECT_EQ(written.size() + 1, queued);
+  for (std::size_t i = 0; i < written.size(); ++i) EXPECT_EQ(written[i].counter, losses + i + 1);
+}
+
+TEST(Outlet, ARecordingThatCannotKeepUpEndsForGoodAndKeepsWhatItHas) {
+  Gate gate;
+  std::uint64_t losses = 0;
+  OutletOptions options;
+  options.listener = [&losses](const Loss& loss) {
+    losses += std::get<OutletReason>(loss.cause) == OutletReason::too_slow;
+  };
+  Outlet outlet(endpoint_of(gate, Blocking::storage), options);
+  std::uint64_t counter = 0;
+  with_blocked(gate, outlet, [&] {
+    while (!outlet.queue()->failed) {
+      ASSERT_LT(counter, 1'000'000u);
+      outlet.write(params(++counter));
+    }
+  });
+  EXPECT_GT(counter, 9000u) << "three minutes of 50 Hz";
+  gate.open();
+  ASSERT_TRUE(gate.has_written(counter));
+  outlet.write(params(++counter));
+  ASSERT_TRUE(outlet.close());
+  EXPECT_TRUE(gate.is_closed());
+  const auto written = gate.params();
+  EXPECT_EQ(written.size(), counter - 2) << "all before the one that had no room, and none after it";
+  for (std::size_t i = 0; i < written.size(); ++i) EXPECT_EQ(written[i].counter, i + 1);
+  EXPECT_EQ(outlet.queue()->drops, 2u);
+  EXPECT_EQ(losses, 2u);
+}
+
+TEST(Outlet, WhereTheCallerCanWaitNothingIsLost) {
+  constexpr std::uint64_t sets = 15'000;
+  for (const auto blocking : {Blocking::attaching, Blocking::storage}) {
+    Gate gate;
+    gate.open();
+    OutletOptions options;
+    options.caller_can_wait = true;
+    options.listener = [](const Loss&) { FAIL(); };
+    Outlet outlet(endpoint_of(gate, blocking), options);
+    for (std::uint64_t counter = 1; counter <= sets; ++counter) outlet.write(params(counter));
+    ASSERT_TRUE(outlet.close());
+    EXPECT_EQ(gate.params().size(), sets);
+    EXPECT_EQ(outlet.queue()->drops, 0u);
+  }
+}
+
+TEST(Outlet, ClosingWritesWhatIsQueuedThenEndsTheSink) {
+  Gate gate;
+  Outlet outlet(endpoint_of(gate, Blocking::storage), {});
+  with_blocked(gate, outlet, [&] {
+    for (std::uint64_t counter = 1; counter <= 100; ++counter) outlet.write(params(counter));
+  });
+  EXPECT_FALSE(gate.is_closed());
+  gate.open();
+  EXPECT_TRUE(outlet.close());
+  EXPECT_EQ(gate.params().size(), 100u);
+  EXPECT_TRUE(gate.is_closed());
+  EXPECT_TRUE(outlet.close()) << "again";
+  outlet.write(params(101));
+  EXPECT_EQ(gate.params().size(), 100u);
+  EXPECT_EQ(outlet.statistics().last_fault.reason, transport::SinkReason::closed);
+}
+
+TEST(Outlet, OneThatIsDestroyedEndsLikewise) {
+  Gate gate;
+  {
+    Outlet outlet(endpoint_of(gate, Blocking::storage), {});
+    with_blocked(gate, outlet, [&] { outlet.write(params(1)); });
+    gate.open();
+  }
+  EXPECT_EQ(gate.params().size(), 1u);
+  EXPECT_TRUE(gate.is_closed());
+}
+
+TEST(Outlet, TheResultOfClosingIsThatOfTheSink) {
+  const test::TemporaryDirectory directory;
+  Outlet outlet(endpoints::parse_sink("file:" + (directory / "take.trk")).value(), {});
+  outlet.write(params(1));
+  const auto closed = outlet.close();
+  ASSERT_FALSE(closed);
+  EXPECT_EQ(closed.error().reason, transport::SinkReason::no_constants);
+}
+
+TEST(Outlet, AFaultInItsOwnThreadIsReportedAndCounted) {
+  Gate gate;
+  gate.open();
+  gate.set_fault(transport::SinkFault{transport::SinkReason::system, {}, ENOSPC});
+  std::vector<Loss> losses;
+  OutletOptions options;
+  options.listener = [&losses](const Loss& loss) { losses.push_back(loss); };
+  Outlet outlet(endpoint_of(gate, Blocking::storage), options);
+  outlet.write(params(1, 7));
+  outlet.write(params(2, 7));
+  ASSERT_TRUE(outlet.close());
+  ASSERT_EQ(losses.size(), 2u);
+  EXPECT_EQ(losses[0].id, 7u);
+  EXPECT_EQ(std::get<transport::SinkFault>(losses[0].cause).error_number, ENOSPC);
+  const auto statistics = outlet.statistics();
+  EXPECT_EQ(statistics.failed_sets, 2u);
+  EXPECT_TRUE(statistics.fails);
+  EXPECT_EQ(statistics.sent.errors, 2u);
+}
+
+TEST(Outlet, WhatTheEndpointDoesNotSayIsTheDefault) {
+  Gate gate;
+  transport::SinkForm given;
+  given.format = wire::euler | wire::field_of_view;
+  OutletOptions options;
+  options.defaults.format = wire::euler;
+  options.defaults.sends_id = false;
+  options.defaults.id = 5;
+  const Outlet outlet(endpoint_of(gate, Blocking::never, given), options);
+  EXPECT_EQ(outlet.form().format, given.format);
+  EXPECT_TRUE(outlet.form().sends_id) << "that goes with the format";
+  EXPECT_EQ(outlet.form().id, 5u);
+  EXPECT_EQ(outlet.url(), "test:gate");
+  EXPECT_EQ(outlet.name(), "gate");
+}
+
+}  // namespace
+}  // namespace trk_bridge::bridge

@@ -1,0 +1,234 @@
+#include "bridge/outlet_writer.h"
+
+#include <cerrno>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "endpoints/presets.h"
+#include "gated_sink.h"
+#include "trk_bridge/wire/format.h"
+#include "udp.h"
+
+namespace trk_bridge::bridge {
+namespace {
+
+using camera::CameraReason;
+using test::constants;
+using test::params;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using transport::SinkFault;
+using transport::SinkReason;
+
+transport::SinkForm form_of(const std::string& words) {
+  transport::SinkForm form;
+  form.format = wire::format_from_words(words).value();
+  return form;
+}
+
+transport::SinkForm form_of_preset(const std::string& name) {
+  const auto preset = endpoints::find_preset(name).value();
+  transport::SinkForm form;
+  form.format = preset.format;
+  form.sends_id = preset.sends_id;
+  return form;
+}
+
+/// What ros_to_trk asks for.
+constexpr OutletRules one_camera{true, true};
+
+class OutletWriterTest : public testing::Test {
+ protected:
+  OutletWriterTest() { gate.open(); }
+  OutletWriter writer(const transport::SinkForm& form = {}, const OutletRules& rules = {}) {
+    return {std::make_unique<test::GatedSink>(gate, "gate"), form, rules,
+            [this](const Loss& loss) { losses.push_back(loss); }};
+  }
+
+  test::Gate gate;
+  std::vector<Loss> losses;
+};
+
+TEST_F(OutletWriterTest, WithoutAFormatEveryNumberStays) {
+  auto outlet = writer();
+  auto odd = params(1, 3);
+  odd.format |= 0x8000;
+  odd.fov = std::numeric_limits<double>::infinity();
+  outlet.write(constants(720, 3));
+  outlet.write(odd);
+  outlet.write(constants(-1, 3));
+  EXPECT_THAT(gate.records(), ElementsAre(constants(720, 3), odd, constants(-1, 3)));
+  outlet.write(constants(720, 3));
+  EXPECT_EQ(gate.records().size(), 4u) << "the receiver has others since";
+  EXPECT_THAT(losses, IsEmpty());
+}
+
+TEST_F(OutletWriterTest, OneFeedForReceiversOfTwoFormatsEachRight) {
+  test::Gate other;
+  other.open();
+  auto aximmetry = writer(form_of_preset("aximmetry"), one_camera);
+  OutletWriter pixotope(std::make_unique<test::GatedSink>(other, "other"), form_of_preset("pixotope"), one_camera);
+  auto wide = constants(720, 7);
+  wide.blank_left = wide.blank_right = 10;
+  wide.fake_chip_width = wide.fake_chip_height = 0;
+  const auto set = params(1, 7);
+  for (auto* one : {&aximmetry, &pixotope}) {
+    one->write(wide);
+    one->write(set);
+  }
+  ASSERT_EQ(gate.params().size(), 1u);
+  ASSERT_EQ(other.params().size(), 1u);
+  EXPECT_EQ(other.params()[0], set) << "already in its format: the very doubles";
+  const auto turned = gate.params()[0];
+  const auto sent_constants = gate.constants()[0], plain_constants = other.constants()[0];
+  EXPECT_EQ(turned.format,
+            std::uint32_t{wire::camera_y_up | wire::studio_y_up | wire::field_of_view | wire::ignore_blank});
+  // y-up studio: x, z, -y of the z-up one.
+  EXPECT_NEAR(turned.matrix[12], 1.5, 1e-12);
+  EXPECT_NEAR(turned.matrix[13], 1.75, 1e-12);
+  EXPECT_NEAR(turned.matrix[14], 2, 1e-12);
+  // Blanks are ignored: the angle is that of a chip that is larger by 720 / 700, for the same picture.
+  EXPECT_NEAR(turned.fov, 2 * std::atan(8.8 * 720 / 700 / 2 / 42) * 180 / M_PI, 1e-9);
+  EXPECT_NEAR(sent_constants.fake_chip_width, 8.8 * 720 / 700, 1e-12) << "adjusted aspect";
+  EXPECT_NEAR(sent_constants.fake_chip_height, 6.6, 1e-12);
+  // Each receiver's constants and parameters are the same camera.
+  const auto first = camera::decode(turned, &sent_constants);
+  const auto second = camera::decode(set, &plain_constants);
+  ASSERT_TRUE(first && second);
+  EXPECT_TRUE(first->pose.isApprox(second->pose, 1e-12));
+  EXPECT_NEAR(first->lens.image_distance, second->lens.image_distance, 1e-9);
+}
+
+TEST_F(OutletWriterTest, TheIdOfTheFormCountsForParamsAndConstants) {
+  transport::SinkForm form;
+  form.id = 3;
+  auto outlet = writer(form);
+  outlet.write(constants(720, 9));
+  outlet.write(params(1, 7));
+  EXPECT_THAT(gate.records(), ElementsAre(constants(720, 3), params(1, 3)));
+  EXPECT_EQ(outlet.statistics().last_id, 3u);
+}
+
+TEST_F(OutletWriterTest, AReceiverThatTakesNoIdIsSentNone) {
+  auto form = form_of_preset("unreal_trackmen");
+  form.id = 4;
+  auto outlet = writer(form);
+  outlet.write(constants(720, 4));
+  outlet.write(params(1, 7));
+  ASSERT_EQ(gate.records().size(), 2u);
+  EXPECT_EQ(gate.constants()[0].id, 0u);
+  EXPECT_EQ(gate.params()[0].id, 0u);
+  EXPECT_EQ(outlet.statistics().left_out_id, 4u);
+}
+
+TEST_F(OutletWriterTest, OnlyNewConstantsGoOut) {
+  auto outlet = writer(form_of("euler"));
+  outlet.write(constants());
+  outlet.write(constants());
+  outlet.write(params(1));
+  outlet.write(constants());
+  EXPECT_EQ(gate.constants().size(), 1u);
+  outlet.write(constants(1920));
+  EXPECT_EQ(gate.constants().size(), 2u);
+}
+
+TEST_F(OutletWriterTest, OneCamerasConstantsCountForAllIdsAndGoAgainWithANewOne) {
+  auto outlet = writer(form_of("euler field_of_view"), one_camera);
+  outlet.write(constants(720, 7));
+  outlet.write(params(1, 8));
+  EXPECT_EQ(gate.params().size(), 1u);
+  outlet.write(constants(720, 8));
+  outlet.write(constants(720, 7));
+  EXPECT_THAT(gate.constants(), ElementsAre(constants(720, 7), constants(720, 8), constants(720, 7)));
+}
+
+TEST_F(OutletWriterTest, ConstantsAreKeptById) {
+  auto outlet = writer(form_of("euler field_of_view"));
+  outlet.write(constants(720, 7));
+  outlet.write(params(1, 8));
+  EXPECT_THAT(gate.params(), IsEmpty()) << "none for 8";
+  EXPECT_EQ(outlet.statistics().withheld, 1u);
+  EXPECT_EQ(outlet.statistics().withhold_reason, CameraReason::constants_needed);
+  ASSERT_EQ(losses.size(), 1u);
+  EXPECT_EQ(losses[0].id, 8u);
+  EXPECT_EQ(std::get<CameraReason>(losses[0].cause), CameraReason::constants_needed);
+  outlet.write(params(1, 7));
+  EXPECT_EQ(gate.params().size(), 1u);
+}
+
+TEST_F(OutletWriterTest, TheNetworkIsNotTrustedWithMemory) {
+  auto outlet = writer();
+  for (std::uint32_t id = 0; id < 300; ++id) outlet.write(constants(720, id));
+  EXPECT_EQ(gate.constants().size(), OutletWriter::most_ids);
+  EXPECT_EQ(outlet.statistics().refused_constants, 300 - OutletWriter::most_ids);
+  ASSERT_EQ(losses.size(), 300 - OutletWriter::most_ids);
+  EXPECT_EQ(std::get<OutletReason>(losses[0].cause), OutletReason::too_many_ids);
+  outlet.write(constants(1920, 3));
+  EXPECT_EQ(gate.constants().back().image_width, 1920) << "those that are known go on";
+  outlet.write(params(1, 299));
+  EXPECT_EQ(gate.params().size(), 1u);
+}
+
+TEST_F(OutletWriterTest, ConstantsWithoutAPictureMakeTheOnesBeforeInvalid) {
+  auto outlet = writer(form_of("euler field_of_view"));
+  outlet.write(constants(720));
+  outlet.write(constants(-1));
+  outlet.write(params(1));
+  EXPECT_THAT(gate.records(), ElementsAre(constants(720)));
+  ASSERT_EQ(losses.size(), 2u);
+  EXPECT_EQ(std::get<CameraReason>(losses[0].cause), CameraReason::bad_constants);
+  EXPECT_EQ(std::get<CameraReason>(losses[1].cause), CameraReason::constants_needed);
+  outlet.write(constants(720));
+  outlet.write(params(2));
+  EXPECT_EQ(gate.constants().size(), 2u);
+  EXPECT_EQ(gate.params().size(), 1u);
+}
+
+TEST_F(OutletWriterTest, ConstantsThatCouldNotBeWrittenGoBeforeEveryLaterSetUntilTheyCould) {
+  auto outlet = writer(form_of("euler"));
+  gate.set_fault(SinkFault{SinkReason::system, {}, ENOSPC});
+  outlet.write(constants());
+  EXPECT_EQ(losses.size(), 1u);
+  outlet.write(params(1));
+  EXPECT_EQ(losses.size(), 2u) << "the parameters alone: nothing is tried twice for one set";
+  EXPECT_EQ(outlet.statistics().failed_sets, 1u);
+  outlet.write(params(2));
+  EXPECT_EQ(losses.size(), 4u);
+  EXPECT_TRUE(outlet.statistics().fails);
+  EXPECT_EQ(outlet.statistics().last_fault.error_number, ENOSPC);
+  gate.set_fault(std::nullopt);
+  outlet.write(params(3));
+  outlet.write(params(4));
+  EXPECT_THAT(gate.records(), ElementsAre(constants(), params(3), params(4)));
+  EXPECT_FALSE(outlet.statistics().fails);
+  EXPECT_EQ(outlet.statistics().failed_sets, 2u);
+  EXPECT_GT(outlet.statistics().last_success, outlet.statistics().last_failure);
+}
+
+TEST_F(OutletWriterTest, WhatIsNoCameraIsDroppedWhereTheRulesSaySo) {
+  auto strict = writer(form_of("euler"), one_camera);
+  auto nowhere = params(1);
+  nowhere.euler.pan = std::nan("");
+  strict.write(nowhere);
+  auto no_lens = params(2);
+  no_lens.k2 = std::numeric_limits<double>::infinity();
+  strict.write(no_lens);
+  EXPECT_EQ(strict.statistics().drop_reason, CameraReason::not_finite);
+  auto doubled = params(3);
+  doubled.format = 0;
+  doubled.euler = {};
+  doubled.matrix = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  strict.write(doubled);
+  EXPECT_EQ(strict.statistics().drop_reason, CameraReason::not_a_rotation);
+  EXPECT_EQ(strict.statistics().dropped, 3u);
+  EXPECT_THAT(gate.records(), IsEmpty());
+  auto plain = writer();
+  plain.write(doubled);
+  EXPECT_THAT(gate.records(), ElementsAre(doubled));
+}
+
+}  // namespace
+}  // namespace trk_bridge::bridge

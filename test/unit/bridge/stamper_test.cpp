@@ -1,0 +1,82 @@
+#include "bridge/stamper.h"
+
+#include <limits>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+namespace trk_bridge::bridge {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+constexpr std::int64_t second = 1'000'000'000;
+constexpr std::int64_t today = 1'700'000'000 * second + 123'456'789;
+
+/// As ros::Time::toSec() does.
+double to_seconds(std::int64_t stamp) {
+  return static_cast<double>(stamp / second) + 1e-9 * static_cast<double>(stamp % second);
+}
+
+TEST(Stamper, IsArrivalLessDelayToTheNanosecond) {
+  Stamper stamper(milliseconds(40));
+  EXPECT_EQ(stamper.stamp(today), 1'700'000'000 * second + 83'456'789);
+  EXPECT_EQ(stamper.stamp(today + 20'000'000), 1'700'000'000 * second + 103'456'789);
+  EXPECT_EQ(stamper.held(), 0u);
+}
+
+TEST(Stamper, StrictlyIncreasesWhenTheClockStandsOrStepsBack) {
+  Stamper stamper(nanoseconds(0));
+  std::vector<std::int64_t> stamps;
+  for (const std::int64_t offset : {0L, 0L, -3600 * second, -3599 * second, 1L, 2000L, second}) {
+    const auto stamp = stamper.stamp(today + offset);
+    ASSERT_TRUE(stamp);
+    if (!stamps.empty()) {
+      EXPECT_GT(*stamp, stamps.back());
+      EXPECT_GT(to_seconds(*stamp), to_seconds(stamps.back())) << "must differ as doubles, too";
+    }
+    stamps.push_back(*stamp);
+  }
+  // Once the clock has caught up, stamps are the arrivals again.
+  EXPECT_EQ(stamps.back(), today + second);
+  EXPECT_EQ(stamper.ahead(), 0);
+  EXPECT_EQ(stamper.held(), 5u);
+}
+
+TEST(Stamper, TellsHowFarItIsAhead) {
+  Stamper stamper(nanoseconds(0));
+  ASSERT_TRUE(stamper.stamp(today));
+  ASSERT_TRUE(stamper.stamp(today - 10 * second));
+  EXPECT_EQ(stamper.ahead(), 10 * second + Stamper::least_step);
+}
+
+TEST(Stamper, RefusesWhatRosTimeCannotTellAndGoesOn) {
+  Stamper stamper(milliseconds(5));
+  EXPECT_FALSE(stamper.stamp(-1));
+  EXPECT_FALSE(stamper.stamp(0));
+  EXPECT_FALSE(stamper.stamp(4'000'000)) << "before 1970 once the delay is taken off";
+  EXPECT_FALSE(stamper.stamp(std::numeric_limits<std::int64_t>::max()));
+  EXPECT_FALSE(stamper.stamp(std::numeric_limits<std::int64_t>::min()));
+  EXPECT_EQ(stamper.stamp(today), today - 5'000'000);
+}
+
+TEST(Stamper, EndsWithRosTime) {
+  constexpr std::int64_t last = 4'294'967'295 * second + 999'999'999;
+  Stamper stamper(nanoseconds(0));
+  EXPECT_EQ(stamper.stamp(last), last);
+  EXPECT_FALSE(stamper.stamp(last)) << "nothing later can be told";
+}
+
+TEST(Stamper, UnorderedIsArrivalLessDelayWhateverCameBefore) {
+  Stamper stamper(milliseconds(5));
+  ASSERT_TRUE(stamper.stamp(today));
+  EXPECT_EQ(stamper.unordered(today - second), today - second - 5'000'000);
+  EXPECT_EQ(stamper.unordered(4'000'000), 0) << "before 1970 once the delay is taken off";
+  EXPECT_EQ(stamper.unordered(std::numeric_limits<std::int64_t>::max()), 0);
+  EXPECT_EQ(stamper.unordered(std::numeric_limits<std::int64_t>::min()), 0);
+  EXPECT_EQ(stamper.held(), 0u);
+}
+
+}  // namespace
+}  // namespace trk_bridge::bridge

@@ -1,0 +1,61 @@
+#include "ros/camera_messages.h"
+
+#include <gmock/gmock.h>
+
+namespace trk_bridge::ros1 {
+namespace {
+
+constexpr std::int64_t today = 1'700'000'000'123'456'789;
+
+bridge::CameraUpdate whole(std::int64_t stamp) {
+  bridge::CameraUpdate update;
+  update.stamp = stamp;
+  update.constants = wire::CameraConstants{3, 1920, 1080, 0, 0, 0, 0, 9.59, 5.39, 9.59, 5.39};
+  update.params.emplace();
+  update.params->counter = 7;
+  update.calibration.emplace();
+  update.calibration->width = 1920;
+  update.pose = Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3));
+  return update;
+}
+
+TEST(CameraMessages, OneStampForEverythingOfASampleInItsFrames) {
+  CameraMessages messages({"studio", "crane1", "crane1_optical"});
+  messages.make(whole(today));
+  const ::ros::Time expected(1'700'000'000, 123'456'789);
+  EXPECT_EQ(messages.params().header.stamp, expected);
+  EXPECT_EQ(messages.constants().header.stamp, expected);
+  EXPECT_EQ(messages.camera_info().header.stamp, expected);
+  EXPECT_EQ(messages.transform().header.stamp, expected);
+  EXPECT_EQ(messages.params().header.frame_id, "studio");
+  EXPECT_EQ(messages.constants().header.frame_id, "crane1");
+  EXPECT_EQ(messages.camera_info().header.frame_id, "crane1_optical");
+  EXPECT_EQ(messages.transform().header.frame_id, "studio");
+  EXPECT_EQ(messages.transform().child_frame_id, "crane1");
+  EXPECT_EQ(messages.params().counter, 7u);
+  EXPECT_EQ(messages.constants().id, 3u);
+  EXPECT_EQ(messages.camera_info().width, 1920u);
+  EXPECT_EQ(messages.transform().transform.translation.z, 3);
+}
+
+TEST(CameraMessages, WhatIsNotInAnUpdateStays) {
+  CameraMessages messages({"studio", "crane1", "crane1_optical"});
+  messages.make(whole(today));
+  bridge::CameraUpdate pose;
+  pose.stamp = today + 1;
+  pose.pose = Eigen::Isometry3d::Identity();
+  messages.make(pose);
+  EXPECT_EQ(messages.transform().header.stamp, ::ros::Time(1'700'000'000, 123'456'790));
+  EXPECT_EQ(messages.params().header.stamp, ::ros::Time(1'700'000'000, 123'456'789));
+  EXPECT_EQ(messages.camera_info().width, 1920u);
+  EXPECT_EQ(messages.constants().id, 3u);
+}
+
+TEST(CameraMessages, ConstantsOfNoKnownTimeHaveTheTimeZero) {
+  CameraMessages messages({"studio", "crane1", "crane1_optical"});
+  messages.make(whole(0));
+  EXPECT_TRUE(messages.constants().header.stamp.isZero());
+}
+
+}  // namespace
+}  // namespace trk_bridge::ros1
