@@ -44,7 +44,7 @@ struct CameraReport {
 /// Seconds after which a camera that sends nothing new is silent: one, or five fields where these are longer.
 inline double silence_after(double field_rate) { return std::max(1.0, 5.0 / field_rate); }
 
-/// What `now` tells, the state first and then what has gone wrong since `before` (the look before it; of counters, only
+/// What `now` shows, the state first and then what has gone wrong since `before` (the look before it; of counters, only
 /// their growth is a finding). Nothing new for silence_after() is a finding.
 std::vector<Finding> findings(const CameraReport& now, const CameraReport& before, const CameraOptions& options,
                               double field_rate);

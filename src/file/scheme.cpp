@@ -106,6 +106,7 @@ const transport::Scheme scheme{"file", "file:PATH",
                                  if (!settings) return tl::make_unexpected(settings.error());
                                  transport::SourceEndpoint endpoint;
                                  endpoint.place = "file:" + settings->path;
+                                 endpoint.can_wait = settings->speed == 0;
                                  endpoint.open = [settings = *settings](double field_rate) {
                                    return open_source(settings, field_rate);
                                  };

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "ros/diagnostics.h"
 #include "trk_bridge/ros/messages.h"
 
 namespace trk_bridge::nodes {
@@ -43,7 +42,7 @@ void CameraOutput::publish(const bridge::CameraUpdate& update) {
 void CameraOutput::publish_markers(const bridge::CameraUpdate& update) {
   if (!markers_ || marker_topic_.getNumSubscribers() == 0) return;
   if (update.calibration) {
-    // Params that were withheld tell no focus.
+    // Without params the focus is not known.
     const double focdist = update.params ? update.params->focdist : 0;
     marker_topic_.publish(markers_->draw(messages_.camera_info(), focdist));
     marker_statistics_.store(markers_->statistics());
@@ -52,15 +51,15 @@ void CameraOutput::publish_markers(const bridge::CameraUpdate& update) {
   }
 }
 
-void CameraOutput::describe(bridge::CameraReport report, diagnostic_updater::DiagnosticStatusWrapper& status) {
+bridge::Status CameraOutput::describe(bridge::CameraReport report) {
   report.camera = statistics_.load();
   report.markers = marker_statistics_.load();
   const auto found = bridge::findings(report, last_report_, parameters_.options, field_rate_);
-  bridge::Status filled;
-  bridge::fill(filled, found, report, last_report_);
-  ros1::to_msg(filled, status);
-  log_.tell(found);
+  bridge::Status status;
+  bridge::fill(status, found, report, last_report_);
+  log_.write(found);
   last_report_ = std::move(report);
+  return status;
 }
 
 }  // namespace trk_bridge::nodes

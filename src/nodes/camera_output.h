@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 
-#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -31,9 +30,9 @@ class CameraOutput {
   /// Publishes what comes of a sample before it returns. `now` is the steady clock's time of receipt, ns.
   void take(const transport::Sample&, std::int64_t now);
 
-  /// Fills a status. `report` is of this moment but for the camera's part, which is added here. Findings of a kind that
-  /// was not met before go to the log, too.
-  void describe(bridge::CameraReport report, diagnostic_updater::DiagnosticStatusWrapper& status);
+  /// `report` is of this moment but for the camera's part, which is added here. Findings of a kind that was not met
+  /// before go to the log, too.
+  bridge::Status describe(bridge::CameraReport report);
 
   const ros1::CameraParameters& parameters() const noexcept { return parameters_; }
 

@@ -8,17 +8,17 @@ namespace trk_bridge::nodes {
 
 using bridge::Level;
 
-void FindingLog::tell(const std::vector<bridge::Finding>& found) {
+void FindingLog::write(const std::vector<bridge::Finding>& found) {
   for (const auto& finding : found) {
-    if (std::find(told_.begin(), told_.end(), finding.condition) != told_.end()) continue;
-    told_.push_back(finding.condition);
+    if (std::find(written_.begin(), written_.end(), finding.condition) != written_.end()) continue;
+    written_.push_back(finding.condition);
     const std::string line = subject_ + ": " + finding.text;
     switch (finding.level) {
       case Level::error:
         ROS_ERROR_STREAM(line);
         break;
       case Level::warn:
-        ROS_WARN_STREAM(line << " (told once, then counted in the diagnostics)");
+        ROS_WARN_STREAM(line << " (logged once, then counted in the diagnostics)");
         break;
       default:
         ROS_INFO_STREAM(line);

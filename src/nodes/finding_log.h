@@ -15,11 +15,11 @@ class FindingLog {
   explicit FindingLog(std::string subject) : subject_(std::move(subject)) {}
 
   /// Logs findings of a kind that was not met before.
-  void tell(const std::vector<bridge::Finding>&);
+  void write(const std::vector<bridge::Finding>&);
 
  private:
   std::string subject_;
-  std::vector<bridge::Condition> told_;
+  std::vector<bridge::Condition> written_;
 };
 
 }  // namespace trk_bridge::nodes

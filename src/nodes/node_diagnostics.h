@@ -1,11 +1,16 @@
 // A node's statuses on /diagnostics, sent at their period also while nothing else happens.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
+
+#include "bridge/status.h"
+#include "ros/diagnostics.h"
 
 namespace trk_bridge::nodes {
 
@@ -18,7 +23,11 @@ class NodeDiagnostics {
     updater_.setHardwareID("trk");
   }
 
-  void add(const std::string& subject, diagnostic_updater::TaskFunction describe) { updater_.add(subject, describe); }
+  void add(const std::string& subject, std::function<bridge::Status()> describe) {
+    updater_.add(subject, [describe = std::move(describe)](diagnostic_updater::DiagnosticStatusWrapper& status) {
+      ros1::to_msg(describe(), status);
+    });
+  }
 
   void start() {
     timer_ = node_.createWallTimer(::ros::WallDuration(updater_.getPeriod()),

@@ -34,7 +34,7 @@ bridge::Status ParamsInput::describe() {
   const auto found = bridge::findings(report, last_report_);
   bridge::Status status;
   bridge::fill(status, found, report, last_report_);
-  log_.tell(found);
+  log_.write(found);
   last_report_ = std::move(report);
   return status;
 }

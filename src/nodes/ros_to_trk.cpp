@@ -2,7 +2,6 @@
 
 #include "node.h"
 #include "params_input.h"
-#include "ros/diagnostics.h"
 #include "ros/ros_to_trk_parameters.h"
 #include "tf_input.h"
 
@@ -21,13 +20,9 @@ RosToTrk::RosToTrk(::ros::NodeHandle node, ::ros::NodeHandle private_node, const
   } else {
     input_ = std::make_unique<ParamsInput>(node, parameters, write_all);
   }
-  diagnostics_.add(parameters.name, [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
-    ros1::to_msg(input_->describe(), status);
-  });
+  diagnostics_.add(parameters.name, [this] { return input_->describe(); });
   for (const auto& sink : sinks_) {
-    diagnostics_.add(sink->url(), [one = sink.get()](diagnostic_updater::DiagnosticStatusWrapper& status) {
-      ros1::to_msg(one->describe(), status);
-    });
+    diagnostics_.add(sink->url(), [one = sink.get()] { return one->describe(); });
   }
   diagnostics_.start();
 }

@@ -47,9 +47,7 @@ void TrkToRos::open(const ros1::TrkToRosParameters& parameters, const ::ros::Pub
     readers_.push_back(std::make_unique<SourceReader>(endpoint->open(parameters.field_rate), cameras));
     for (auto* camera : cameras) {
       diagnostics_.add(camera->parameters().name,
-                       [camera, reader = readers_.back().get()](diagnostic_updater::DiagnosticStatusWrapper& status) {
-                         camera->describe(reader->report(), status);
-                       });
+                       [camera, reader = readers_.back().get()] { return camera->describe(reader->report()); });
     }
   }
 }

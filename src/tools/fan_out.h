@@ -1,46 +1,56 @@
-// Several sinks as one: what one of them refuses does not keep the others from it.
+// Several sinks as one: what one of them refuses does not keep the others from it, and none waits for another.
 #pragma once
 
 #include <cstdint>
 #include <iosfwd>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "trk_bridge/transport/sink.h"
+#include "bridge/outlet.h"
 
 namespace trk_bridge::tools {
 
-/// Tells each cause of failure once, and counts. Not synchronised.
+/// Reports each cause of a loss once, in the thread that met it, and counts. Its functions are for one thread at a
+/// time.
 class FanOut {
  public:
-  /// `program` begins every line written to `err`.
-  FanOut(std::vector<std::unique_ptr<transport::Sink>>, std::string program, std::ostream& err);
+  /// `program` begins every line written to `err`. `source_can_wait`: see OutletOptions::caller_can_wait.
+  FanOut(std::string program, std::ostream& err, bool source_can_wait = false);
+
+  /// Opens one more. `defaults` count for what the endpoint does not say. Throws TransportError.
+  void add(const transport::SinkEndpoint&, const transport::SinkForm& defaults = {});
 
   void write(const wire::CameraParams&);
   void write(const wire::CameraConstants&);
+  /// Writes what is queued and closes all.
   void close();
 
-  /// Whether every sink took everything. That a file left out what came before its constants is told and counted, but
-  /// is no failure: a recording begins when it can.
+  /// A line on `err`, whole whatever other threads report. Any thread.
+  void report(const std::string& line);
+  /// Once it is closed, whether every sink took everything. That a file left out what came before its constants and
+  /// that shared memory left out sets that newer ones replaced is reported and counted, but is no failure.
   bool is_good() const noexcept { return is_good_; }
-  /// What was sent, one line a sink, and how often each cause came.
+  /// Once it is closed: what was sent, a line a sink, and how often each cause came.
   void summarise() const;
 
+  const std::vector<std::unique_ptr<bridge::Outlet>>& outlets() const noexcept { return outlets_; }
+
  private:
-  using Cause = std::pair<std::size_t, transport::SinkFault>;  // which sink, and why
+  using Cause = std::pair<std::size_t, bridge::Loss::Cause>;  // which sink, and why
 
-  template <typename Record>
-  void write_each(const Record&);
-  void count(std::size_t sink, const transport::SinkFault&);
+  void count(std::size_t sink, const bridge::Loss&);
 
-  std::vector<std::unique_ptr<transport::Sink>> sinks_;
-  std::string program_;
+  const std::string program_;
   std::ostream& err_;
+  const bool source_can_wait_;
+  std::mutex mutex_;  // of err_, causes_ and is_good_ until it is closed
   std::map<Cause, std::uint64_t> causes_;
   bool is_good_ = true;
+  std::vector<std::unique_ptr<bridge::Outlet>> outlets_;
 };
 
 }  // namespace trk_bridge::tools

@@ -80,42 +80,51 @@ class RelayCommand {
     command_->footer(cli::endpoints_help);
     command_->add_option("SOURCE", source_url_, "Where records come from")->required();
     command_->add_option("SINK", sink_urls_, "Where they go")->required()->expected(1, -1);
-    auto* format = command_
-                       ->add_option("--format", format_words_,
-                                    "Format words, in quotes, in which parameters are passed on; default: as they come")
-                       ->type_name("WORDS");
+    auto* format =
+        command_
+            ->add_option("--format", format_words_,
+                         "Format words, in quotes, for sinks whose URL says no format; default: as they come")
+            ->type_name("WORDS");
     command_->add_option("--preset", preset_name_, "The receiver, in place of format words: see trk presets")
         ->type_name("NAME")
         ->excludes(format);
-    command_->add_option("--id", options_.id, "Camera number in place of the one that came")->type_name("N");
+    command_
+        ->add_option("--id", form_.id, "Camera number in place of the one that came, for sinks whose URL says no id")
+        ->type_name("N");
   }
   bool is_asked_for() const { return command_->parsed(); }
 
   cli::ExitCode run() {
-    if (format_words_) options_.format = cli::format_from(*format_words_);
+    if (format_words_) form_.format = cli::format_from(*format_words_);
     if (preset_name_) follow(cli::preset_from(*preset_name_));
     const auto from = cli::source_from(source_url_);
     std::vector<transport::SinkEndpoint> to;
-    for (const auto& url : sink_urls_) to.push_back(cli::sink_from(url));
+    for (const auto& url : sink_urls_) to.push_back(checked(cli::sink_from(url)));
 
     const auto source = from.open(default_field_rate);
-    std::vector<std::unique_ptr<transport::Sink>> sinks;
-    for (const auto& endpoint : to) sinks.push_back(endpoint.open());
+    FanOut sinks("trk", std::cerr, from.can_wait);
+    for (const auto& endpoint : to) sinks.add(endpoint, form_);
     const cli::StopSignals signals(source.get());
     std::cerr << "trk: reading " << source->name() << '\n';
-    for (const auto& sink : sinks) std::cerr << "trk: writing " << sink->name() << '\n';
-    return relay(*source, std::move(sinks), options_, std::cerr);
+    for (const auto& outlet : sinks.outlets()) std::cerr << "trk: writing " << outlet->name() << '\n';
+    return relay(*source, sinks, std::cerr);
   }
 
  private:
   void follow(const endpoints::Preset& preset) {
-    options_.format = preset.format;
-    if (preset.sends_id) return;
-    if (options_.id.value_or(0) != 0) {
-      throw CLI::ValidationError("--id " + std::to_string(*options_.id) + ": the preset " + preset.name +
+    form_.format = preset.format;
+    form_.sends_id = preset.sends_id;
+    if (!preset.sends_id && form_.id.value_or(0) != 0) {
+      throw CLI::ValidationError("--id " + std::to_string(*form_.id) + ": the preset " + preset.name +
                                  " sends no id; only 0 is allowed");
     }
-    options_.id = 0;
+  }
+  /// A sink may have an id, or a preset without ids, of its own.
+  transport::SinkEndpoint checked(transport::SinkEndpoint endpoint) const {
+    const auto form = transport::with_defaults(endpoint.form, form_);
+    if (form.sends_id || form.id.value_or(0) == 0) return endpoint;
+    throw CLI::ValidationError("endpoint \"" + endpoint.url + "\": id " + std::to_string(*form.id) +
+                               " with a preset that sends no id; only 0 is allowed");
   }
 
   CLI::App* command_;
@@ -123,7 +132,7 @@ class RelayCommand {
   std::vector<std::string> sink_urls_;
   std::optional<std::string> format_words_;
   std::optional<std::string> preset_name_;
-  RelayOptions options_;
+  transport::SinkForm form_;
 };
 
 class MonitorCommand {

@@ -119,7 +119,7 @@ TEST_F(ToBag, HoldsWhatTheNodePublishes) {
   EXPECT_EQ(infos, fields);
 }
 
-TEST_F(ToBag, TheDayAndTheBeginningCanBeSaid) {
+TEST_F(ToBag, TheDayAndTheStartCanBeSet) {
   const auto take = take_of(some_fields(3));
   const auto begin = [&](const TakeToBagOptions& options) {
     rosbag::Bag bag(to_bag(take, options));
@@ -146,7 +146,7 @@ TEST_F(ToBag, TheFieldRateNeedNotBeRepeatedOnTheWayBack) {
   }
 }
 
-TEST_F(ToBag, ParamsCanBeToldInAnotherFormat) {
+TEST_F(ToBag, ParamsCanBeConvertedToAnotherFormat) {
   TakeToBagOptions options;
   options.format = wire::euler | wire::studio_y_up;
   const auto back = to_take(to_bag(take_of(some_fields(1)), options));
@@ -155,7 +155,7 @@ TEST_F(ToBag, ParamsCanBeToldInAnotherFormat) {
   EXPECT_EQ(back.params[0].euler.y, some_params(1000).euler.z);
 }
 
-TEST_F(ToBag, WhatTheNodeWouldNotPublishIsToldAndLeftOut) {
+TEST_F(ToBag, WhatTheNodeWouldNotPublishIsReportedAndLeftOut) {
   to_bag(take_of({some_params(5), some_params(6), some_params(6), some_params(7)}));
   EXPECT_THAT(err.str(), HasSubstr("1 fields are not in the bag: their counter came before"));
   EXPECT_EQ(to_take(directory / "a.bag").params.size(), 3u);

@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include "file/take_file.h"
 #include "gated_sink.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"

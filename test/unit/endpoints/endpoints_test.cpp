@@ -129,6 +129,13 @@ TEST(Endpoints, WhatAFormDoesNotSayComesFromTheDefaults) {
   EXPECT_EQ(by_id.id, 9u);
 }
 
+TEST(Endpoints, OnlyATakeWithoutAPaceCanWait) {
+  EXPECT_TRUE(parse_source("file:a?speed=0&loop=1")->can_wait);
+  for (const char* url : {"file:a", "file:a?speed=1000", "udp://:7000", "shm:7"}) {
+    EXPECT_FALSE(parse_source(url)->can_wait) << url;
+  }
+}
+
 TEST(Endpoints, EqualPlacesAreThoseThatOnlyOneCanRead) {
   EXPECT_EQ(parse_source("udp://:7000?allow=192.0.2.1")->place, parse_source("udp://:7000")->place);
   EXPECT_NE(parse_source("udp://:7001")->place, parse_source("udp://:7000")->place);

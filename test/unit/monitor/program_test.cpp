@@ -167,7 +167,7 @@ TEST(TrkMonitor, ShowsWhatComesInEightyByTwentyFourAndResized) {
   MonitorOnATerminal monitor;
   Tracker tracker(monitor.port());
   EXPECT_TRUE(monitor.shows("trk monitor  waiting for udp port"));
-  tracker.send("rubbish");
+  tracker.send("no record");
   tracker();
   ASSERT_TRUE(monitor.shows("NO CONSTANTS have come")) << monitor.screen.text();
   tracker.send(test::datagram(test::constants(720, 7)));
@@ -216,7 +216,7 @@ INSTANTIATE_TEST_SUITE_P(Signals, TrkMonitorEnds, testing::Values(SIGINT, SIGTER
 
 bool has_colour(const std::string& written) { return written.find("\x1B[33m") != std::string::npos; }
 
-TEST(TrkMonitor, HasColourUnlessToldNot) {
+TEST(TrkMonitor, HasColourUnlessSwitchedOff) {
   for (const char* no_color : {static_cast<const char*>(nullptr), "1"}) {
     MonitorOnATerminal monitor("xterm", no_color);
     // What it waits for is a warning.

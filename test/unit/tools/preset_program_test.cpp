@@ -18,7 +18,7 @@ using test::Program;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-std::uint16_t port_told_by(Program& program) {
+std::uint16_t port_of(Program& program) {
   const std::string line = program.err_line().value_or("");
   const std::size_t at = line.find("udp port ");
   if (at == std::string::npos) throw std::runtime_error("no port in \"" + line + "\"");
@@ -63,7 +63,7 @@ Received relayed_to(const std::string& preset) {
   const test::PlainSocket receiver;
   Program relay({TRK_TOOL, "relay", "udp://127.0.0.1:0", "udp://127.0.0.1:" + std::to_string(receiver.port()),
                  "--preset", preset});
-  const std::uint16_t port = port_told_by(relay);
+  const std::uint16_t port = port_of(relay);
   const test::PlainSocket tracker;
   tracker.send(test::datagram(test::constants(720, 3)), "127.0.0.1", port);
   tracker.send(test::datagram(test::params(77, 3)), "127.0.0.1", port);

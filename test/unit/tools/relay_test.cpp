@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <variant>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "file/take.h"
+#include "gated_sink.h"
 #include "memory_feed.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"
@@ -23,53 +25,34 @@ namespace {
 
 using testing::HasSubstr;
 using transport::Event;
-using transport::Written;
-
-/// What it took, for as long as it takes anything.
-class Basket final : public transport::Sink {
- public:
-  struct Content {
-    std::vector<wire::Record> records;
-    bool closed = false;
-  };
-  explicit Basket(Content& content, bool refuses = false) : content_(content), refuses_(refuses) {}
-
-  std::string name() const override { return refuses_ ? "torn basket" : "basket"; }
-
- private:
-  Written put(const wire::CameraParams& params) override { return take(params); }
-  Written put(const wire::CameraConstants& constants) override { return take(constants); }
-  Written finish() override {
-    content_.closed = true;
-    return {};
-  }
-  Written take(const wire::Record& record) {
-    if (refuses_) {
-      transport::SinkFault fault{transport::SinkReason::system};
-      fault.error_number = ENETUNREACH;
-      return tl::unexpected(fault);
-    }
-    content_.records.push_back(record);
-    return {};
-  }
-
-  Content& content_;
-  bool refuses_;
-};
 
 class RelayTest : public testing::Test {
  protected:
-  void add_basket() { sinks.push_back(std::make_unique<Basket>(basket)); }
-  cli::ExitCode run(const RelayOptions& options = {}) {
+  RelayTest() { gate.open(); }
+
+  void add(const transport::SinkEndpoint& endpoint) { to.push_back(endpoint); }
+  void add_gate(const transport::SinkForm& form = {}) {
+    add(test::endpoint_of(gate, transport::Blocking::never, form));
+  }
+  void add_file(const std::string& path) { add(endpoints::parse_sink("file:" + path).value()); }
+  cli::ExitCode run(const transport::SinkForm& defaults = {}, bool source_can_wait = false) {
     feed.put(Event::ended);
-    return relay(*feed.source(), std::move(sinks), options, err);
+    FanOut sinks("trk", err, source_can_wait);
+    for (const auto& endpoint : to) sinks.add(endpoint, defaults);
+    return relay(*feed.source(), sinks, err);
   }
 
   test::MemoryFeed feed;
-  Basket::Content basket;
-  std::vector<std::unique_ptr<transport::Sink>> sinks;
+  test::Gate gate;
+  std::vector<transport::SinkEndpoint> to;
   std::ostringstream err;
 };
+
+transport::SinkForm form_of(std::uint32_t format) {
+  transport::SinkForm form;
+  form.format = format;
+  return form;
+}
 
 double degrees_apart(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
 
@@ -80,13 +63,12 @@ TEST_F(RelayTest, EveryWorkedCaseBecomesTheCanonicalCameraInEuler) {
     feed.put(constants);
     feed.put(test::case_params_of(one["params"]));
   }
-  add_basket();
-  RelayOptions options;
-  options.format = wire::euler;
-  EXPECT_EQ(run(options), cli::exit_good) << err.str();
-  ASSERT_EQ(basket.records.size(), 2 * cases.size());
+  add_gate();
+  EXPECT_EQ(run(form_of(wire::euler)), cli::exit_good) << err.str();
+  const auto sent = gate.params();
+  ASSERT_EQ(sent.size(), cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const auto& params = std::get<wire::CameraParams>(basket.records[2 * i + 1]);
+    const auto& params = sent[i];
     const auto& expected = cases[i]["expect"];
     const auto near = [&](double found, double wanted) {
       EXPECT_NEAR(found, wanted, 1e-9 * std::max(1.0, std::abs(wanted))) << "case " << i;
@@ -114,23 +96,25 @@ TEST_F(RelayTest, WithoutOptionsEveryRecordPassesAsItCame) {
   }
   sent.emplace_back(test::constants(720, 3));
   for (const auto& record : sent) feed.put(record);
-  add_basket();
+  add_gate();
   EXPECT_EQ(run(), cli::exit_good);
-  EXPECT_EQ(basket.records, sent);
-  EXPECT_TRUE(basket.closed);
+  const auto records = gate.records();
+  EXPECT_EQ(records, sent);
+  EXPECT_TRUE(gate.is_closed());
   EXPECT_THAT(err.str(), HasSubstr("received " + std::to_string(sent.size())));
 }
 
 TEST_F(RelayTest, AnotherIdReplacesTheOneThatCame) {
   feed.put(test::constants(720, 3));
   feed.put(test::params(1, 3));
-  add_basket();
-  RelayOptions options;
-  options.id = 9;
-  EXPECT_EQ(run(options), cli::exit_good);
-  ASSERT_EQ(basket.records.size(), 2u);
-  EXPECT_EQ(std::get<wire::CameraConstants>(basket.records[0]), test::constants(720, 9));
-  EXPECT_EQ(std::get<wire::CameraParams>(basket.records[1]), test::params(1, 9));
+  add_gate();
+  transport::SinkForm form;
+  form.id = 9;
+  EXPECT_EQ(run(form), cli::exit_good);
+  const auto records = gate.records();
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_EQ(std::get<wire::CameraConstants>(records[0]), test::constants(720, 9));
+  EXPECT_EQ(std::get<wire::CameraParams>(records[1]), test::params(1, 9));
 }
 
 TEST_F(RelayTest, ConstantsAreKeptById) {
@@ -145,13 +129,12 @@ TEST_F(RelayTest, ConstantsAreKeptById) {
   feed.put(params);
   params.id = 2;
   feed.put(params);
-  add_basket();
-  RelayOptions options;
-  options.format = wire::euler;
-  EXPECT_EQ(run(options), cli::exit_good) << err.str();
-  ASSERT_EQ(basket.records.size(), 4u);
-  EXPECT_NEAR(std::get<wire::CameraParams>(basket.records[2]).fov, 4.4, 1e-12);
-  EXPECT_NEAR(std::get<wire::CameraParams>(basket.records[3]).fov, 2.2, 1e-12);
+  add_gate();
+  EXPECT_EQ(run(form_of(wire::euler)), cli::exit_good) << err.str();
+  const auto records = gate.records();
+  ASSERT_EQ(records.size(), 4u);
+  EXPECT_NEAR(std::get<wire::CameraParams>(records[2]).fov, 4.4, 1e-12);
+  EXPECT_NEAR(std::get<wire::CameraParams>(records[3]).fov, 2.2, 1e-12);
 }
 
 TEST_F(RelayTest, TheFakeChipAgreesWithTheFormatSent) {
@@ -159,12 +142,11 @@ TEST_F(RelayTest, TheFakeChipAgreesWithTheFormatSent) {
   constants.blank_left = constants.blank_right = 10;
   constants.fake_chip_width = constants.fake_chip_height = 0;
   feed.put(constants);
-  add_basket();
-  RelayOptions options;
-  options.format = wire::euler | wire::ignore_blank | wire::keep_aspect;
-  EXPECT_EQ(run(options), cli::exit_good);
-  ASSERT_EQ(basket.records.size(), 1u);
-  const auto& sent = std::get<wire::CameraConstants>(basket.records[0]);
+  add_gate();
+  EXPECT_EQ(run(form_of(wire::euler | wire::ignore_blank | wire::keep_aspect)), cli::exit_good);
+  const auto records = gate.records();
+  ASSERT_EQ(records.size(), 1u);
+  const auto& sent = std::get<wire::CameraConstants>(records[0]);
   EXPECT_NEAR(sent.fake_chip_width, 8.8 * 720 / 700, 1e-12);
   EXPECT_NEAR(sent.fake_chip_height, 6.6 * 720 / 700, 1e-12);
 }
@@ -175,11 +157,10 @@ TEST_F(RelayTest, WhatNeedsConstantsIsRefusedWithoutThemOnceToldAndCounted) {
   for (params.counter = 1; params.counter <= 3; ++params.counter) feed.put(params);
   feed.put(test::constants());
   feed.put(params);
-  add_basket();
-  RelayOptions options;
-  options.format = wire::euler;
-  EXPECT_EQ(run(options), cli::exit_failed);
-  EXPECT_EQ(basket.records.size(), 2u);
+  add_gate();
+  EXPECT_EQ(run(form_of(wire::euler)), cli::exit_failed);
+  const auto records = gate.records();
+  EXPECT_EQ(records.size(), 2u);
   EXPECT_THAT(err.str(), HasSubstr("cannot be passed on as \"euler"));
   EXPECT_THAT(err.str(), HasSubstr("not passed on: 3 records"));
   const std::string told = "(told once)";
@@ -192,30 +173,126 @@ TEST_F(RelayTest, ConstantsWithoutAPictureReplaceNothingAndAreNotReexpressed) {
   feed.put(test::constants(720));
   feed.put(test::constants(-1));
   feed.put(params);
-  add_basket();
-  RelayOptions options;
-  options.format = wire::euler;
-  EXPECT_EQ(run(options), cli::exit_failed);
-  EXPECT_EQ(basket.records.size(), 1u) << "the first constants only: what came after them made them invalid";
+  add_gate();
+  EXPECT_EQ(run(form_of(wire::euler)), cli::exit_failed);
+  const auto records = gate.records();
+  EXPECT_EQ(records.size(), 1u) << "the first constants only: what came after them made them invalid";
 }
 
 TEST_F(RelayTest, ASinkThatRefusesDoesNotKeepTheOthersFromIt) {
-  Basket::Content none;
-  sinks.push_back(std::make_unique<Basket>(none, true));
-  add_basket();
+  test::Gate torn;
+  torn.open();
+  torn.set_fault(transport::SinkFault{transport::SinkReason::system, {}, ENETUNREACH});
+  for (const auto blocking : {transport::Blocking::never, transport::Blocking::storage}) {
+    add(test::endpoint_of(torn, blocking, {}, blocking == transport::Blocking::never ? "torn wire" : "torn disk"));
+  }
+  add_gate();
   for (std::uint64_t counter = 1; counter <= 4; ++counter) feed.put(test::params(counter));
   EXPECT_EQ(run(), cli::exit_failed);
-  EXPECT_EQ(basket.records.size(), 4u);
-  EXPECT_TRUE(basket.closed && none.closed);
-  EXPECT_THAT(err.str(), HasSubstr("trk: torn basket: "));
-  EXPECT_THAT(err.str(), HasSubstr("Network is unreachable"));
-  EXPECT_THAT(err.str(), HasSubstr("torn basket: 4 times"));
+  EXPECT_EQ(gate.records().size(), 4u);
+  EXPECT_TRUE(gate.is_closed() && torn.is_closed());
+  for (const std::string name : {"torn wire", "torn disk"}) {
+    EXPECT_THAT(err.str(), HasSubstr("trk: " + name + ": the system refused: Network is unreachable (told once)"));
+    EXPECT_THAT(err.str(), HasSubstr("trk: " + name + ": 4 times"));
+  }
+}
+
+TEST_F(RelayTest, EverySinkHasItsOwnForm) {
+  test::Gate other, plain;
+  other.open();
+  plain.open();
+  auto form = form_of(wire::euler | wire::field_of_view);
+  form.id = 3;
+  add(test::endpoint_of(other, transport::Blocking::never, form));
+  add(test::endpoint_of(plain));
+  feed.put(test::constants(720, 7));
+  feed.put(test::params(1, 7));
+  EXPECT_EQ(run(), cli::exit_good) << err.str();
+  EXPECT_THAT(plain.records(), testing::ElementsAre(test::constants(720, 7), test::params(1, 7)));
+  ASSERT_EQ(other.params().size(), 1u);
+  EXPECT_EQ(other.params()[0].id, 3u);
+  EXPECT_NEAR(other.params()[0].fov, 2 * std::atan(8.8 / 2 / 42) * 180 / M_PI, 1e-9);
+}
+
+TEST_F(RelayTest, ASinkThatIsSlowDoesNotKeepTheOthersFromTheirRate) {
+  test::Gate slow;
+  add(test::endpoint_of(slow, transport::Blocking::storage, {}, "slow disk"));
+  add_gate();
+  for (std::uint64_t counter = 1; counter <= 100; ++counter) feed.put(test::params(counter));
+  // Ends once the other sink has everything, which it would never have if it waited.
+  std::thread watch([&] {
+    EXPECT_TRUE(gate.has_written(100));
+    EXPECT_EQ(slow.count(), 0u);
+    slow.open();
+  });
+  EXPECT_EQ(run(), cli::exit_good) << err.str();
+  watch.join();
+  EXPECT_EQ(slow.count(), 100u) << "what is queued is written in the end";
+}
+
+TEST_F(RelayTest, ARecordingThatCannotKeepUpIsAFailure) {
+  constexpr std::uint64_t sets = 12'000;
+  test::Gate slow;
+  add(test::endpoint_of(slow, transport::Blocking::storage, {}, "slow disk"));
+  add_gate();
+  for (std::uint64_t counter = 1; counter <= sets; ++counter) feed.put(test::params(counter));
+  std::thread watch([&] {
+    EXPECT_TRUE(gate.has_written(sets));
+    slow.open();
+  });
+  EXPECT_EQ(run(), cli::exit_failed);
+  watch.join();
+  const std::string text = err.str(), lost = "slow disk: the recording has ended";
+  EXPECT_THAT(text, HasSubstr(lost));
+  EXPECT_EQ(text.find(lost), text.rfind(lost));
+  EXPECT_THAT(text, HasSubstr("slow disk: not passed on: " + std::to_string(sets - slow.count()) + " records"));
+}
+
+TEST_F(RelayTest, ATakeThatIsPlayedAsFastAsPossibleLosesNothing) {
+  constexpr std::uint64_t sets = 12'000;
+  test::Gate slow;
+  add(test::endpoint_of(slow, transport::Blocking::storage));
+  add(test::endpoint_of(slow, transport::Blocking::attaching));
+  for (std::uint64_t counter = 1; counter <= sets; ++counter) feed.put(test::params(counter));
+  std::thread watch([&] {
+    EXPECT_TRUE(slow.is_blocking());
+    slow.open();
+  });
+  EXPECT_EQ(run({}, true), cli::exit_good) << err.str();
+  watch.join();
+  EXPECT_EQ(slow.count(), 2 * sets);
+}
+
+TEST_F(RelayTest, SetsThatNewerOnesReplaceAreReportedAndNoFailure) {
+  constexpr std::uint64_t sets = 500;
+  test::Gate slow;
+  add(test::endpoint_of(slow, transport::Blocking::attaching, {}, "slow slot"));
+  add_gate();
+  for (std::uint64_t counter = 1; counter <= sets; ++counter) feed.put(test::params(counter));
+  std::thread watch([&] {
+    EXPECT_TRUE(gate.has_written(sets));
+    slow.open();
+  });
+  EXPECT_EQ(run(), cli::exit_good);
+  watch.join();
+  EXPECT_LT(slow.count(), sets);
+  EXPECT_EQ(slow.params().back().counter, sets);
+  EXPECT_THAT(err.str(), HasSubstr("slow slot: not passed on: " + std::to_string(sets - slow.count()) + " records"));
+}
+
+TEST_F(RelayTest, ConstantsOfTooManyIdsAreRefused) {
+  for (std::uint32_t id = 0; id < 300; ++id) feed.put(test::constants(720, id));
+  add_gate();
+  EXPECT_EQ(run(), cli::exit_failed);
+  EXPECT_EQ(gate.count(), 256u);
+  EXPECT_THAT(err.str(), HasSubstr("constants of more than 256 ids came; no more are taken"));
+  EXPECT_THAT(err.str(), HasSubstr("not passed on: 44 records: "));
 }
 
 TEST_F(RelayTest, AFileBeginsWhenConstantsCome) {
   const test::TemporaryDirectory directory;
   const std::string path = directory / "take.trk";
-  sinks.push_back(endpoints::open_sink("file:" + path));
+  add_file(path);
   for (std::uint64_t counter = 1; counter <= 3; ++counter) feed.put(test::params(counter));
   feed.put(test::constants());
   feed.put(test::params(4));
@@ -229,7 +306,7 @@ TEST_F(RelayTest, AFileBeginsWhenConstantsCome) {
 
 TEST_F(RelayTest, AFileWithoutConstantsIsNone) {
   const test::TemporaryDirectory directory;
-  sinks.push_back(endpoints::open_sink("file:" + (directory / "take.trk")));
+  add_file(directory / "take.trk");
   feed.put(test::params(1));
   EXPECT_EQ(run(), cli::exit_failed);
   EXPECT_THAT(err.str(), HasSubstr("no constants came, so nothing was kept"));
@@ -238,7 +315,7 @@ TEST_F(RelayTest, AFileWithoutConstantsIsNone) {
 TEST_F(RelayTest, MalformedRecordsAreToldOncePerReason) {
   for (int i = 0; i < 5; ++i) feed.put_malformed(wire::Reason::bad_magic);
   feed.put_malformed(wire::Reason::truncated);
-  add_basket();
+  add_gate();
   EXPECT_EQ(run(), cli::exit_good);
   const std::string text = err.str();
   EXPECT_EQ(text.find("bad magic"), text.rfind("bad magic: does")) << text;

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "file/take.h"
 #include "program.h"
 #include "temporary_directory.h"
-#include "file/take.h"
 #include "udp.h"
 #include "vectors.h"
 
@@ -19,7 +19,7 @@ using test::Program;
 using testing::HasSubstr;
 
 /// The port in "… udp port N …" of the program's first line.
-std::uint16_t port_told_by(Program& program) {
+std::uint16_t port_of(Program& program) {
   const std::string line = program.err_line().value_or("");
   const std::size_t at = line.find("udp port ");
   if (at == std::string::npos) throw std::runtime_error("no port in \"" + line + "\"");
@@ -58,7 +58,7 @@ rapidjson::Document parsed(const std::string& text) {
 
 TEST(TrkDump, TellsTheFieldsBinaryDatagramsBitForBit) {
   Program dump({TRK_TOOL, "dump", "udp://127.0.0.1:0?layout=identified", "--json"});
-  const std::uint16_t port = port_told_by(dump);
+  const std::uint16_t port = port_of(dump);
   const test::PlainSocket tracker;
   for (const auto& line : test::read_jsonl("field/identified_lp64/params.jsonl")) {
     tracker.send(test::from_hex(line["binary_hex"].GetString()), "127.0.0.1", port);
@@ -78,13 +78,13 @@ TEST(TrkDump, TellsTheFieldsBinaryDatagramsBitForBit) {
 
 TEST(TrkDump, EndsOnSigintWithASummary) {
   Program dump({TRK_TOOL, "dump", "udp://127.0.0.1:0"});
-  const std::uint16_t port = port_told_by(dump);
+  const std::uint16_t port = port_of(dump);
   const test::PlainSocket tracker;
   for (const std::uint64_t counter : {1, 2, 5}) {
     tracker.send(test::datagram(test::params(counter, 7)), "127.0.0.1", port);
     ASSERT_TRUE(dump.out_line()) << "each line comes at once, also into a pipe";
   }
-  tracker.send("rubbish", "127.0.0.1", port);
+  tracker.send("no record", "127.0.0.1", port);
   EXPECT_THAT(dump.err_line().value_or(""),
               HasSubstr("trk: malformed record from 127.0.0.1:" + std::to_string(tracker.port())));
   dump.signal(SIGINT);
@@ -126,14 +126,14 @@ TEST(TrkRelay, ClosesAFileInOrderOnSigterm) {
   const test::TemporaryDirectory directory;
   const std::string path = directory / "take.trk";
   Program relay({TRK_TOOL, "relay", "udp://127.0.0.1:0", "file:" + path});
-  const std::uint16_t port = port_told_by(relay);
+  const std::uint16_t port = port_of(relay);
   ASSERT_THAT(relay.err_line().value_or(""), HasSubstr(path));
   const test::PlainSocket tracker;
   tracker.send(test::datagram(test::constants()), "127.0.0.1", port);
   for (std::uint64_t counter = 1; counter <= 3; ++counter)
     tracker.send(test::datagram(test::params(counter)), "127.0.0.1", port);
-  // Whatever is malformed is told after everything before it was written.
-  tracker.send("rubbish", "127.0.0.1", port);
+  // A malformed record is reported after everything before it was written.
+  tracker.send("no record", "127.0.0.1", port);
   ASSERT_THAT(relay.err_line().value_or(""), HasSubstr("malformed"));
   relay.signal(SIGTERM);
   const std::string summary = relay.rest_of_err();
