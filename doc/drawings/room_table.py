@@ -31,7 +31,7 @@ ROOMS = {
     "cli": Room("what programs share", ("base", "endpoints", "transport", "wire")),
     "monitor": Room("trk monitor", ("base", "camera", "cli", "transport", "wire")),
     "bag": Room("trk bag", ("base", "bridge", "camera", "cli", "file", "ros", "transport", "wire"), ros=True),
-    "tools": Room("trk", ("base", "camera", "cli", "endpoints", "monitor", "transport", "wire"), uses_with_ros=("bag",)),
+    "tools": Room("trk", ("base", "bridge", "cli", "endpoints", "monitor", "transport", "wire"), uses_with_ros=("bag",)),
     "programs": Room("six test programs", ("c_api", "camera", "cli", "wire")),
 }
 
