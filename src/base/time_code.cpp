@@ -78,7 +78,7 @@ tl::expected<TimeCode, std::string> time_code_at(std::int64_t nanoseconds, doubl
   const std::int64_t nominal = std::llround(field_rate);
   const long double seconds_exact = static_cast<long double>(nanoseconds) / 1e9L;
   const std::int64_t fields = std::llround(seconds_exact * static_cast<long double>(field_rate));
-  const std::int64_t seconds = fields / nominal % (24 * 60 * 60);
+  const std::int64_t seconds = fields / nominal % (std::int64_t{24} * 60 * 60);
   const std::int64_t frames = fields % nominal / 2;
   if (frames > parts[3].most) return refuse("frame " + std::to_string(frames) + " has more than two digits");
   const auto part = [](std::int64_t value) { return static_cast<int>(value); };

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "trk_bridge/camera/camera.h"
 #include "base/nearest.h"
+#include "trk_bridge/camera/camera.h"
 
 namespace trk_bridge::ros1 {
 namespace {

@@ -54,7 +54,7 @@ class CameraDisplay : public rviz::Display {
     boost::shared_ptr<const trk_bridge::CameraParams> params;  ///< null where there are none
     Eigen::Isometry3d fixed_T_optical = Eigen::Isometry3d::Identity();
     std::optional<camera::PanTiltRoll> angles;  ///< of `params`
-    std::string pose_fault;                   ///< why they have none
+    std::string pose_fault;                     ///< why they have none
   };
 
   void forget();

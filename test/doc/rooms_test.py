@@ -62,7 +62,7 @@ def faults_of(root):
             if ROOMS[used].ros and not ROOMS[room].ros:
                 yield f"{room} has no ROS, and the table lets it use {used}, which has"
     for room in sorted(on_disk & set(ROOMS)):
-        included_rooms = set()
+        included_rooms = {}
         for path in sources_of(root, room):
             for included in INCLUDE.findall(path.read_text(encoding="utf-8")):
                 owner = owner_of(root, included)
@@ -71,10 +71,10 @@ def faults_of(root):
                     if not ROOMS[room].ros and not beside.exists() and is_ros(included):
                         yield f"{path.relative_to(root)} includes {included}, and {room} has no ROS"
                 elif owner != room:
-                    included_rooms.add(owner)
-                    if owner not in used_by(room):
-                        yield f"{path.relative_to(root)} includes {included}: {room} -> {owner} is not in the table"
-        for used in sorted(set(used_by(room)) - included_rooms):
+                    included_rooms.setdefault(owner, f"{path.relative_to(root)} includes {included}")
+        for used in sorted(set(included_rooms) - set(used_by(room))):
+            yield f"{room} -> {used} is not in the table: {included_rooms[used]}"
+        for used in sorted(set(used_by(room)) - set(included_rooms)):
             yield f"{room} -> {used} is in the table, and nothing in {room} includes it"
 
 

@@ -15,8 +15,8 @@
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "trk_bridge/wire/codec.h"
 #include "nodes/trk_to_ros.h"
+#include "trk_bridge/wire/codec.h"
 #include "udp.h"
 
 namespace trk_bridge::test {

@@ -9,14 +9,14 @@
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
 
+#include "file/take.h"
 #include "free_slot.h"
 #include "node_process.h"
-#include "receiver.h"
 #include "nodes/ros_to_trk.h"
+#include "receiver.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/ros/messages.h"
-#include "file/take.h"
 
 namespace trk_bridge::test {
 namespace {

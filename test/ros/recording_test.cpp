@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "file/take.h"
 #include "fixture.h"
 #include "program.h"
 #include "roslaunch.h"
 #include "temporary_directory.h"
-#include "file/take.h"
 #include "vectors.h"
 
 namespace trk_bridge::test {

@@ -20,12 +20,12 @@
 #include <visualization_msgs/MarkerArray.h>
 #include <class_loader/class_loader.hpp>
 
+#include "demo/test_card.h"
 #include "fixture.h"
 #include "picture_measure.h"
 #include "repeating.h"
-#include "demo/test_card.h"
-#include "trk_bridge/ros/frames.h"
 #include "ros/parameter_reader.h"
+#include "trk_bridge/ros/frames.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::test {

@@ -9,8 +9,8 @@
 
 #include "../unit/camera/worked_cases.h"
 #include "fixture.h"
-#include "receiver.h"
 #include "nodes/ros_to_trk.h"
+#include "receiver.h"
 #include "same_camera.h"
 #include "trk_bridge/wire/format.h"
 

@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "temporary_directory.h"
 #include "camera_display.h"
 #include "published_camera.h"
+#include "temporary_directory.h"
 
 namespace trk_bridge::test {
 namespace {

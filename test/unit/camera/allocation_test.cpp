@@ -4,9 +4,9 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "camera/figure.h"
 #include "random_cameras.h"
 #include "trk_bridge/camera/calibration.h"
-#include "camera/figure.h"
 #include "trk_bridge/camera/converter.h"
 #include "trk_bridge/camera/image.h"
 

@@ -154,8 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Field, FieldLayout,
                          [](const auto& instance) { return instance.param.directory; });
 
 TEST(SegmentLayout, other_sizes_and_other_machines_have_none) {
-  for (const std::size_t size : {0U, 1U, 300U, 507U, 509U, 526U, 545U, 4096U})
-    EXPECT_EQ(layout_of_size(size), nullptr);
+  for (const std::size_t size : {0U, 1U, 300U, 507U, 509U, 526U, 545U, 4096U}) EXPECT_EQ(layout_of_size(size), nullptr);
   EXPECT_EQ(layout_of({wire::Generation::document, wire::Abi::llp64, wire::ByteOrder::little}), nullptr);
 }
 

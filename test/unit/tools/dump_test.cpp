@@ -28,7 +28,7 @@ class DumpTest : public testing::Test {
 
 TEST_F(DumpTest, ALineARecordAndTheSummaryByCameraAndSender) {
   feed.put(test::constants(720, 7));
-  for (const std::uint64_t counter : {1, 2, 5, 4, 5, 6}) feed.put(test::params(counter, 7));
+  for (const std::uint64_t counter : {1u, 2u, 5u, 4u, 5u, 6u}) feed.put(test::params(counter, 7));
   feed.put(test::params(100, 8));
   feed.put(test::params(100, 8), 6000);
   feed.put(transport::Event::ended);

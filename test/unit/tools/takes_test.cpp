@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "trk_bridge/camera/camera.h"
 #include "file/take.h"
+#include "trk_bridge/camera/camera.h"
 #include "vectors.h"
 
 namespace trk_bridge {

@@ -80,7 +80,7 @@ TEST(TrkDump, EndsOnSigintWithASummary) {
   Program dump({TRK_TOOL, "dump", "udp://127.0.0.1:0"});
   const std::uint16_t port = port_of(dump);
   const test::PlainSocket tracker;
-  for (const std::uint64_t counter : {1, 2, 5}) {
+  for (const std::uint64_t counter : {1u, 2u, 5u}) {
     tracker.send(test::datagram(test::params(counter, 7)), "127.0.0.1", port);
     ASSERT_TRUE(dump.out_line()) << "each line comes at once, also into a pipe";
   }

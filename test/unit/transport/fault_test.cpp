@@ -12,7 +12,7 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<Fault>, "faults are handed over by value and counted in snapshots");
 
-constexpr auto last_reason = wire::Reason::no_sound_layout;
+constexpr auto last_reason = wire::Reason::no_valid_layout;
 
 std::vector<wire::Fault> every_fault_of_trk() {
   std::vector<wire::Fault> faults;

@@ -1,0 +1,1 @@
+// A target has a source: this one has the headers that all tests share.
