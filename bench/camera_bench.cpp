@@ -44,7 +44,7 @@ BENCHMARK(encode)->ArgName("format")->Arg(angles)->Arg(0)->Arg(everything);
 void convert(benchmark::State& state) {
   const auto params = camera::encode(some_camera(mild), everything, &constants).value();
   camera::Converter converter(static_cast<std::uint32_t>(state.range(0)));
-  if (converter.take(constants) != camera::ConstantsChange::changed) state.SkipWithError("bad constants");
+  if (converter.use(constants) != camera::ConstantsChange::changed) state.SkipWithError("bad constants");
   for (auto _ : state) benchmark::DoNotOptimize(converter.convert(params));
 }
 BENCHMARK(convert)->ArgName("format")->Arg(angles)->Arg(everything);

@@ -7,7 +7,7 @@
 namespace trk_bridge::bag {
 
 void RecordedConstants::use(const wire::CameraConstants& constants, std::int64_t stamp) {
-  switch (converter_.take(constants)) {
+  switch (converter_.use(constants)) {
     case camera::ConstantsChange::unchanged:
       return;
     case camera::ConstantsChange::changed:

@@ -17,7 +17,7 @@ std::chrono::nanoseconds nanoseconds_of(double seconds) {
 
 CameraPipeline::CameraPipeline(const CameraOptions& options, double field_rate)
     : options_(options), sequence_(field_rate), stamper_(nanoseconds_of(options.delay)), converter_(options.format) {
-  if (options.constants && converter_.take(*options.constants) != ConstantsChange::unsound) {
+  if (options.constants && converter_.use(*options.constants) != ConstantsChange::unsound) {
     statistics_.constants = ConstantsOrigin::parameter;
   }
 }
@@ -36,18 +36,18 @@ CameraUpdate CameraPipeline::initial() const noexcept {
 }
 
 CameraUpdate CameraPipeline::process(const transport::Sample& sample, std::int64_t now) noexcept {
-  if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) return take(*params, sample, now);
+  if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) return process(*params, sample, now);
   if (const auto* constants = std::get_if<wire::CameraConstants>(&sample.record)) {
-    return take(*constants, sample.arrival);
+    return process(*constants, sample.arrival);
   }
   return {};
 }
 
-CameraUpdate CameraPipeline::take(const wire::CameraConstants& constants, std::int64_t arrival) noexcept {
+CameraUpdate CameraPipeline::process(const wire::CameraConstants& constants, std::int64_t arrival) noexcept {
   const bool own = !options_.id || constants.id == *options_.id;
   const auto origin = own ? ConstantsOrigin::own : ConstantsOrigin::any_camera;
   if (origin < statistics_.constants) return {};
-  const ConstantsChange change = converter_.take(constants);
+  const ConstantsChange change = converter_.use(constants);
   if (change == ConstantsChange::unsound) {
     ++statistics_.bad_constants;
     return {};
@@ -60,8 +60,8 @@ CameraUpdate CameraPipeline::take(const wire::CameraConstants& constants, std::i
   return update;
 }
 
-CameraUpdate CameraPipeline::take(const wire::CameraParams& params, const transport::Sample& sample,
-                                  std::int64_t now) noexcept {
+CameraUpdate CameraPipeline::process(const wire::CameraParams& params, const transport::Sample& sample,
+                                     std::int64_t now) noexcept {
   if (!is_new(params, sample)) return {};
   statistics_.last_new = now;
   statistics_.sender = sample.sender;

@@ -77,8 +77,8 @@ class CameraPipeline {
   const CameraStatistics& statistics() const noexcept { return statistics_; }
 
  private:
-  CameraUpdate take(const wire::CameraConstants&, std::int64_t arrival) noexcept;
-  CameraUpdate take(const wire::CameraParams&, const transport::Sample&, std::int64_t now) noexcept;
+  CameraUpdate process(const wire::CameraConstants&, std::int64_t arrival) noexcept;
+  CameraUpdate process(const wire::CameraParams&, const transport::Sample&, std::int64_t now) noexcept;
   bool is_new(const wire::CameraParams&, const transport::Sample&) noexcept;
   std::optional<std::int64_t> stamp(std::int64_t arrival) noexcept;
   void add_lens(const camera::Converted&, CameraUpdate&) noexcept;

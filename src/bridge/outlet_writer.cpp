@@ -54,7 +54,7 @@ void OutletWriter::write(const wire::CameraConstants& constants) {
     write_unsound(constants, sound.error());
   } else if (auto* camera = find_or_add(constants.id); camera == nullptr) {
     refuse(constants, OutletReason::too_many_ids);
-  } else if (camera->converter.take(constants) == camera::ConstantsChange::changed) {
+  } else if (camera->converter.use(constants) == camera::ConstantsChange::changed) {
     camera->constants_written = put(*camera->converter.outgoing());
     camera->retries = false;
   }

@@ -76,7 +76,7 @@ class OutletWriter {
   OutletWriter(std::unique_ptr<transport::Sink>, const transport::SinkForm&, const OutletRules&, LossListener = {});
 
   /// Constants of the camera that the parameters with the same id come from. They go out when they are new
-  /// (camera::Converter::take); those that could not be written go again before every later set until they could. Where
+  /// (camera::Converter::use); those that could not be written go again before every later set until they could. Where
   /// there is a format, constants that leave no picture are not sent, and the ones before are forgotten.
   void write(const wire::CameraConstants&);
   /// Converts and sends them. Without a format all numbers stay as they came.

@@ -6,7 +6,7 @@ ParamsToTrk::ParamsToTrk(const std::optional<wire::CameraConstants>& constants) 
   statistics_.constants_known = constants.has_value();
 }
 
-void ParamsToTrk::take(const wire::CameraConstants& constants) noexcept {
+void ParamsToTrk::use(const wire::CameraConstants& constants) noexcept {
   if (!camera::check(constants)) {
     ++statistics_.bad_constants;
     return;
@@ -15,14 +15,14 @@ void ParamsToTrk::take(const wire::CameraConstants& constants) noexcept {
   statistics_.constants_known = statistics_.constants_received = true;
 }
 
-OutgoingSet ParamsToTrk::take(const wire::CameraParams& params, std::int64_t now) noexcept {
+OutgoingSet ParamsToTrk::use(const wire::CameraParams& params, std::int64_t now) noexcept {
   ++statistics_.received;
   statistics_.last_received = now;
   statistics_.last_format = params.format;
   OutgoingSet set{std::nullopt, params};
   if (!newest_) return set;
   newest_->id = params.id;
-  if (given_.take(*newest_) == camera::ConstantsChange::changed) set.constants = newest_;
+  if (given_.use(*newest_) == camera::ConstantsChange::changed) set.constants = newest_;
   return set;
 }
 

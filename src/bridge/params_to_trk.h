@@ -26,10 +26,10 @@ class ParamsToTrk {
   explicit ParamsToTrk(const std::optional<wire::CameraConstants>& constants = std::nullopt) noexcept;
 
   /// Takes constants, which go out with the next parameters. The newest sound ones count, whatever their id.
-  void take(const wire::CameraConstants&) noexcept;
+  void use(const wire::CameraConstants&) noexcept;
 
   /// The parameters as they came, with the constants where outlets need them. `now` is the steady clock, ns.
-  OutgoingSet take(const wire::CameraParams&, std::int64_t now) noexcept;
+  OutgoingSet use(const wire::CameraParams&, std::int64_t now) noexcept;
 
   const ParamsToTrkStatistics& statistics() const noexcept { return statistics_; }
 

@@ -14,7 +14,7 @@ TfToTrk::TfToTrk(const TfToTrkOptions& options)
       aperture_(options.aperture),
       canonical_(wire::euler) {}
 
-void TfToTrk::take(const CameraInfo& info, std::int64_t stamp, std::int64_t now) {
+void TfToTrk::use(const CameraInfo& info, std::int64_t stamp, std::int64_t now) {
   ++statistics_.infos;
   statistics_.last_info = now;
   if (statistics_.infos == 1 || !same_calibration(info, calibration_)) fit(info);
@@ -45,7 +45,7 @@ void TfToTrk::fit(const CameraInfo& info) {
   statistics_.aspect = fitted->aspect;
 }
 
-void TfToTrk::take_lens(double focdist, double aperture) noexcept {
+void TfToTrk::use_lens(double focdist, double aperture) noexcept {
   if (!std::isfinite(focdist) || !std::isfinite(aperture)) {
     ++statistics_.bad_lenses;
     return;
@@ -96,7 +96,7 @@ std::optional<OutgoingSet> TfToTrk::make(const Eigen::Isometry3d& studio_T_frame
   set.params.counter = ++counter_;
   chip_.image_width = at.width;
   chip_.image_height = at.height;
-  if (canonical_.take(chip_) == camera::ConstantsChange::changed) set.constants = chip_;
+  if (canonical_.use(chip_) == camera::ConstantsChange::changed) set.constants = chip_;
   last_pose_ = stamp;
   statistics_.last_stamp = stamp;
   ++statistics_.sets;

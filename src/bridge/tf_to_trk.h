@@ -20,7 +20,7 @@ struct TfToTrkOptions {
   /// The camera's axes (x right, y forward, z up) in the frame whose poses come: another one than the identity for
   /// poses of an optical frame.
   Eigen::Isometry3d frame_T_camera = Eigen::Isometry3d::Identity();
-  double focdist = 0;   ///< m, until take_lens()
+  double focdist = 0;   ///< m, until use_lens()
   double aperture = 0;  ///< f-stop, likewise
 };
 
@@ -38,7 +38,7 @@ struct TfToTrkStatistics {
   bool info_is_refused = false;     ///< the last one is, for `info_fault`
   InfoFault info_fault{};
   double residual = 0, tangential = 0, aspect = 0;  ///< px, see camera::FittedLens
-  std::uint64_t bad_lenses = 0;                     ///< calls of take_lens() with a value that is not finite: ignored
+  std::uint64_t bad_lenses = 0;                     ///< calls of use_lens() with a value that is not finite: ignored
 };
 
 /// Stamps are ns since 1970; that of a pose for ever (static transforms alone) is 0. Not synchronised: one thread at a
@@ -49,9 +49,9 @@ class TfToTrk {
   explicit TfToTrk(const TfToTrkOptions&);
 
   /// `now` is the steady clock, ns, here and below.
-  void take(const CameraInfo&, std::int64_t stamp, std::int64_t now);
+  void use(const CameraInfo&, std::int64_t stamp, std::int64_t now);
   /// Focus (m) and aperture of the sets from now on.
-  void take_lens(double focdist, double aperture) noexcept;
+  void use_lens(double focdist, double aperture) noexcept;
 
   /// Whether a pose of this stamp is newer than that of the last set. A pose for ever always is, as is one older by
   /// more than a second, for then time itself jumped back.

@@ -12,7 +12,7 @@ void ParamsRing::push(const wire::CameraParams& params) noexcept {
 }
 
 /// Set `i`; it and all before it leave the ring.
-wire::CameraParams ParamsRing::take(std::size_t i) noexcept {
+wire::CameraParams ParamsRing::pop(std::size_t i) noexcept {
   const wire::CameraParams taken = at(i);
   first_ = (first_ + i + 1) % capacity;
   size_ -= i + 1;
@@ -26,25 +26,25 @@ bool ParamsRing::is_ascending() const noexcept {
   return true;
 }
 
-std::optional<wire::CameraParams> ParamsRing::take_newest() noexcept {
+std::optional<wire::CameraParams> ParamsRing::pop_newest() noexcept {
   if (size_ == 0) return std::nullopt;
-  const wire::CameraParams newest = take(size_ - 1);
+  const wire::CameraParams newest = pop(size_ - 1);
   last_ = newest.counter;
   return newest;
 }
 
-std::optional<wire::CameraParams> ParamsRing::take_paced(std::uint64_t passed, std::uint64_t tolerated) noexcept {
+std::optional<wire::CameraParams> ParamsRing::pop_paced(std::uint64_t passed, std::uint64_t tolerated) noexcept {
   if (size_ == 0) return std::nullopt;
   const std::uint64_t newest = at(size_ - 1).counter;
-  if (!last_ || newest <= *last_ || size_ == capacity || !is_ascending()) return take_newest();
+  if (!last_ || newest <= *last_ || size_ == capacity || !is_ascending()) return pop_newest();
   // As differences from the last one, for a sum may be past what a counter holds.
-  if (newest - *last_ > passed + tolerated) return take_newest();
+  if (newest - *last_ > passed + tolerated) return pop_newest();
   for (std::size_t i = 0; i < size_; ++i) {
     if (at(i).counter < *last_ || at(i).counter - *last_ < passed) continue;
     *last_ += passed;
-    return take(i);
+    return pop(i);
   }
-  return take_newest();
+  return pop_newest();
 }
 
 }  // namespace trk_bridge::c_api

@@ -19,15 +19,15 @@ class ParamsRing {
   std::size_t size() const noexcept { return size_; }
 
   /// The newest, and none of what came before it. None when nothing has arrived since.
-  std::optional<wire::CameraParams> take_newest() noexcept;
+  std::optional<wire::CameraParams> pop_newest() noexcept;
   /// The set `passed` counts after the one taken last, if there is one and at most `tolerated` are ahead of it;
   /// both must not be negative.
-  std::optional<wire::CameraParams> take_paced(std::uint64_t passed, std::uint64_t tolerated) noexcept;
+  std::optional<wire::CameraParams> pop_paced(std::uint64_t passed, std::uint64_t tolerated) noexcept;
 
  private:
   const wire::CameraParams& at(std::size_t i) const noexcept { return sets_[(first_ + i) % capacity]; }
   bool is_ascending() const noexcept;
-  wire::CameraParams take(std::size_t i) noexcept;
+  wire::CameraParams pop(std::size_t i) noexcept;
 
   std::array<wire::CameraParams, capacity> sets_{};
   std::size_t first_ = 0;

@@ -27,12 +27,12 @@ class NetReader {
 
   trkError read(trkCameraParams& into) {
     const bool works = drain();
-    return give(works, ring_.take_newest(), into);
+    return give(works, ring_.pop_newest(), into);
   }
 
   trkError read_paced(trkCameraParams& into, unsigned passed, unsigned tolerated) {
     const bool works = drain();
-    return give(works, ring_.take_paced(passed, tolerated), into);
+    return give(works, ring_.pop_paced(passed, tolerated), into);
   }
 
   trkError read(trkCameraConstants& into) {

@@ -21,7 +21,7 @@ Result<wire::CameraParams> in_format(std::uint32_t format, const wire::CameraPar
 
 }  // namespace
 
-ConstantsChange Converter::take(const wire::CameraConstants& constants) noexcept {
+ConstantsChange Converter::use(const wire::CameraConstants& constants) noexcept {
   if (!check(constants)) return ConstantsChange::unsound;
   if (constants_ && constants_->incoming == constants) return ConstantsChange::unchanged;
   constants_ = Constants{constants, format_ ? constants_for(constants, *format_) : constants};
@@ -37,12 +37,6 @@ Converted Converter::convert(const wire::CameraParams& params) const noexcept {
 
 Result<wire::CameraParams> Converter::convert(const Camera& camera) const noexcept {
   return encode(camera, format_.value_or(wire::euler), outgoing());
-}
-
-Result<wire::CameraParams> reexpress(const wire::CameraParams& params, std::uint32_t format,
-                                     const wire::CameraConstants* incoming,
-                                     const wire::CameraConstants* outgoing) noexcept {
-  return in_format(format, params, decode_pose(params), lens_parts(params, incoming), outgoing);
 }
 
 }  // namespace trk_bridge::camera

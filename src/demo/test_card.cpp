@@ -57,13 +57,13 @@ TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node
       [this](const trk_bridge::CameraConstantsConstPtr& message) { constants_ = ros1::from_msg(*message); });
   // A queue of one: while a picture is made, newer params take the place of those that wait.
   params_subscriber_ = node.subscribe<trk_bridge::CameraParams>(
-      "params", 1, [this](const trk_bridge::CameraParamsConstPtr& message) { take(message); });
+      "params", 1, [this](const trk_bridge::CameraParamsConstPtr& message) { receive(message); });
   info_subscriber_ = node.subscribe<sensor_msgs::CameraInfo>(
       "camera_info", static_cast<std::uint32_t>(kept_infos),
-      [this](const sensor_msgs::CameraInfoConstPtr& message) { take(message); });
+      [this](const sensor_msgs::CameraInfoConstPtr& message) { receive(message); });
 }
 
-void TestCard::take(const trk_bridge::CameraParamsConstPtr& message) {
+void TestCard::receive(const trk_bridge::CameraParamsConstPtr& message) {
   const bool raw = images_.getNumSubscribers() > 0, rectified = rectified_wanted();
   if (!raw && !rectified) return;
   const auto now = Clock::now();
@@ -78,7 +78,7 @@ void TestCard::take(const trk_bridge::CameraParamsConstPtr& message) {
   rectify_when_told();
 }
 
-void TestCard::take(const sensor_msgs::CameraInfoConstPtr& message) {
+void TestCard::receive(const sensor_msgs::CameraInfoConstPtr& message) {
   if (infos_.size() == kept_infos) infos_.pop_front();
   infos_.push_back(message);
   rectify_when_told();

@@ -36,8 +36,8 @@ class TestCard {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void take(const trk_bridge::CameraParamsConstPtr&);
-  void take(const sensor_msgs::CameraInfoConstPtr&);
+  void receive(const trk_bridge::CameraParamsConstPtr&);
+  void receive(const sensor_msgs::CameraInfoConstPtr&);
   bool render(const trk_bridge::CameraParams&);
   void rectify(const sensor_msgs::CameraInfo&);
   void rectify_when_told();

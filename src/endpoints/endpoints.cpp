@@ -63,8 +63,8 @@ tl::expected<std::uint32_t, std::string> format_from(std::string words) {
 }
 
 /// Takes the options of every sink out of the URL.
-tl::expected<SinkForm, std::string> take_form(Url& url) {
-  const auto take = [&url](std::string_view key) -> std::optional<std::string> {
+tl::expected<SinkForm, std::string> extract_form(Url& url) {
+  const auto extract = [&url](std::string_view key) -> std::optional<std::string> {
     const auto option =
         std::find_if(url.options.begin(), url.options.end(), [&](const auto& o) { return o.key == key; });
     if (option == url.options.end()) return std::nullopt;
@@ -72,7 +72,7 @@ tl::expected<SinkForm, std::string> take_form(Url& url) {
     url.options.erase(option);
     return value;
   };
-  const auto words = take("format"), preset_name = take("preset"), id = take("id");
+  const auto words = extract("format"), preset_name = extract("preset"), id = extract("id");
   SinkForm form;
   if (words && preset_name) {
     return tl::make_unexpected("option preset = \"" + *preset_name +
@@ -114,7 +114,7 @@ tl::expected<Endpoint, std::string> located(std::string_view url, tl::expected<E
 tl::expected<SinkEndpoint, std::string> sink_endpoint(std::string_view text) {
   auto url = parsed(text);
   if (!url) return tl::make_unexpected(url.error());
-  const auto form = take_form(url->url);
+  const auto form = extract_form(url->url);
   if (!form) return tl::make_unexpected(form.error());
   auto endpoint = url->scheme->sink(url->url);
   if (endpoint) endpoint->form = *form;

@@ -26,7 +26,9 @@ CameraOutput::CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&
   publish(pipeline_.initial());
 }
 
-void CameraOutput::take(const transport::Sample& sample, std::int64_t now) { publish(pipeline_.process(sample, now)); }
+void CameraOutput::process(const transport::Sample& sample, std::int64_t now) {
+  publish(pipeline_.process(sample, now));
+}
 
 void CameraOutput::publish(const bridge::CameraUpdate& update) {
   messages_.make(update);

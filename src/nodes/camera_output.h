@@ -18,7 +18,7 @@
 
 namespace trk_bridge::nodes {
 
-/// take() belongs to one reader's thread, describe() to the diagnostics' one.
+/// process() belongs to one reader's thread, describe() to the diagnostics' one.
 class CameraOutput {
  public:
   /// Advertises `params`, `constants` and `camera_info` in the namespace of `node`, and publishes the parameter's
@@ -28,7 +28,7 @@ class CameraOutput {
 
   bool wants(const wire::Record& record) const noexcept { return pipeline_.wants(record); }
   /// Publishes what comes of a sample before it returns. `now` is the steady clock's time of receipt, ns.
-  void take(const transport::Sample&, std::int64_t now);
+  void process(const transport::Sample&, std::int64_t now);
 
   /// `report` is of this moment but for the camera's part, which is added here. Findings of a kind that was not met
   /// before go to the log, too.

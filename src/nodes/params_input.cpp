@@ -12,20 +12,20 @@ ParamsInput::ParamsInput(::ros::NodeHandle node, const ros1::RosToTrkParameters&
   const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
   const auto no_delay = ::ros::TransportHints().tcpNoDelay();
   constants_ = node.subscribe<trk_bridge::CameraConstants>(
-      "constants", queue, [this](const trk_bridge::CameraConstantsConstPtr& message) { take(*message); },
+      "constants", queue, [this](const trk_bridge::CameraConstantsConstPtr& message) { receive(*message); },
       ::ros::VoidConstPtr(), no_delay);
   params_ = node.subscribe<trk_bridge::CameraParams>(
-      "params", queue, [this](const trk_bridge::CameraParamsConstPtr& message) { take(*message); },
+      "params", queue, [this](const trk_bridge::CameraParamsConstPtr& message) { receive(*message); },
       ::ros::VoidConstPtr(), no_delay);
 }
 
-void ParamsInput::take(const trk_bridge::CameraConstants& message) {
-  sets_.take(ros1::from_msg(message));
+void ParamsInput::receive(const trk_bridge::CameraConstants& message) {
+  sets_.use(ros1::from_msg(message));
   statistics_.store(sets_.statistics());
 }
 
-void ParamsInput::take(const trk_bridge::CameraParams& message) {
-  write_(sets_.take(ros1::from_msg(message), base::steady_now()));
+void ParamsInput::receive(const trk_bridge::CameraParams& message) {
+  write_(sets_.use(ros1::from_msg(message), base::steady_now()));
   statistics_.store(sets_.statistics());
 }
 

@@ -23,8 +23,8 @@ class ParamsInput : public TrkInput {
   bridge::Status describe() override;
 
  private:
-  void take(const trk_bridge::CameraParams&);
-  void take(const trk_bridge::CameraConstants&);
+  void receive(const trk_bridge::CameraParams&);
+  void receive(const trk_bridge::CameraConstants&);
 
   SetWriter write_;
   bridge::ParamsToTrk sets_;

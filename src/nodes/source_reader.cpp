@@ -70,7 +70,7 @@ void SourceReader::dispatch(const transport::Sample& sample) {
   for (auto* camera : cameras_) {
     if (!camera->wants(sample.record)) continue;
     wanted = true;
-    camera->take(sample, now);
+    camera->process(sample, now);
   }
   if (!wanted) note_unknown(std::visit([](const auto& record) { return record.id; }, sample.record));
 }

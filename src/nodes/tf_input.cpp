@@ -28,13 +28,13 @@ TfInput::TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& paramet
   last_report_.time = base::steady_now();
   const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
   camera_info_ = node.subscribe<sensor_msgs::CameraInfo>(
-      "camera_info", queue, [this](const sensor_msgs::CameraInfoConstPtr& message) { take(*message); },
+      "camera_info", queue, [this](const sensor_msgs::CameraInfoConstPtr& message) { receive(*message); },
       ::ros::VoidConstPtr(), no_delay());
   lens_ = node.subscribe<trk_bridge::CameraParams>(
       "lens", queue,
       [this](const trk_bridge::CameraParamsConstPtr& message) {
         const std::lock_guard<std::mutex> lock(mutex_);
-        sets_.take_lens(message->focdist, message->aperture);
+        sets_.use_lens(message->focdist, message->aperture);
       },
       ::ros::VoidConstPtr(), no_delay());
   sent_ = node.advertise<trk_bridge::CameraParams>("sent", queue);
@@ -50,11 +50,11 @@ TfInput::~TfInput() {
   thread_.join();
 }
 
-void TfInput::take(const sensor_msgs::CameraInfo& message) {
+void TfInput::receive(const sensor_msgs::CameraInfo& message) {
   const auto info = ros1::from_msg(message);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    sets_.take(info, nanoseconds_of(message.header.stamp), base::steady_now());
+    sets_.use(info, nanoseconds_of(message.header.stamp), base::steady_now());
   }
   changed_.notify_all();
 }
@@ -111,7 +111,7 @@ bool TfInput::look() {
 
 void TfInput::publish(const bridge::OutgoingSet& set, const std_msgs::Header& header) {
   // Constants that leave no picture are not given by the input.
-  if (set.constants) static_cast<void>(sent_form_.take(*set.constants));
+  if (set.constants) static_cast<void>(sent_form_.use(*set.constants));
   auto converted = sent_form_.convert(set.params).params;
   // The diagnostics of the sinks say why.
   if (!converted) return;

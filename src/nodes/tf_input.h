@@ -44,7 +44,7 @@ class TfInput : public TrkInput {
   /// Writes a set when there is a newer pose. False when there is a pose, but the newest is known already.
   bool look();
   Pose newest_pose() const;
-  void take(const sensor_msgs::CameraInfo&);
+  void receive(const sensor_msgs::CameraInfo&);
   void publish(const bridge::OutgoingSet&, const std_msgs::Header&);
 
   SetWriter write_;

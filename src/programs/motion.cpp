@@ -47,7 +47,7 @@ camera::Camera camera_at(unsigned index) {
 
 }  // namespace
 
-Motion::Motion(unsigned format) : converter_(format) { (void)converter_.take(pal_constants()); }
+Motion::Motion(unsigned format) : converter_(format) { (void)converter_.use(pal_constants()); }
 
 trkCameraConstants Motion::constants() const { return c_api::to_c(*converter_.outgoing()); }
 

@@ -110,8 +110,8 @@ void CameraDisplay::forget() {
 
 void CameraDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
   const ros::Time now = ros::Time::now();
-  if (info_.take() == Added::restarted) trail_.clear();
-  params_.take();
+  if (info_.collect() == Added::restarted) trail_.clear();
+  params_.collect();
 
   status_.begin(now, steady_seconds());
   const FixedFrame fixed(*context_->getFrameManager());

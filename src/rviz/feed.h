@@ -12,7 +12,7 @@
 
 namespace trk_bridge::rviz_display {
 
-/// The received messages are handed over in take(); everything but the reception itself is for one thread.
+/// The received messages are handed over in collect(); everything but the reception itself is for one thread.
 template <typename Message>
 class Feed {
  public:
@@ -40,10 +40,10 @@ class Feed {
   }
 
   /// Sorts in what has arrived; restarted where any of it was.
-  Added take() {
+  Added collect() {
     auto result = Added::in_time;
     if (!inbox_) return result;
-    auto arrivals = inbox_->take();
+    auto arrivals = inbox_->collect();
     if (arrivals.count == 0) return result;
     received_ += arrivals.count;
     last_arrival_ = arrivals.last;

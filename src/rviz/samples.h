@@ -126,7 +126,7 @@ class Inbox {
     arrivals_.last = now;
   }
 
-  Arrivals<Message> take() {
+  Arrivals<Message> collect() {
     const std::lock_guard<std::mutex> lock(mutex_);
     return std::exchange(arrivals_, {});
   }

@@ -82,7 +82,7 @@ tl::expected<Place, std::string> place_in(const Url& url, Direction direction) {
 }
 
 template <typename Settings>
-tl::expected<void, std::string> take_place(const Url& url, Direction direction, Settings& settings) {
+tl::expected<void, std::string> read_place(const Url& url, Direction direction, Settings& settings) {
   auto place = place_in(url, direction);
   if (!place) return tl::make_unexpected(place.error());
   settings.host = std::move(place->host);
@@ -110,11 +110,11 @@ const std::array<Option<SendSettings>, 3> send_options{{
 }};
 
 tl::expected<void, std::string> set_place(const Url& url, ReceiveSettings& settings) {
-  return take_place(url, Direction::read, settings);
+  return read_place(url, Direction::read, settings);
 }
 
 tl::expected<void, std::string> set_place(const Url& url, SendSettings& settings) {
-  return take_place(url, Direction::write, settings);
+  return read_place(url, Direction::write, settings);
 }
 
 std::string place_of(const ReceiveSettings& settings) { return udp_url(settings.host, settings.port); }

@@ -23,7 +23,7 @@ class DatagramSource final : public CountedSource {
   Event receive(Reception& into, std::chrono::nanoseconds wait) override;
 
  private:
-  bool take_datagram(Reception& into, int& error) noexcept;
+  bool next_datagram(Reception& into, int& error) noexcept;
   void complete(SourceStatistics& statistics) const override;
 
   std::unique_ptr<ReceiveSocket> socket_;
@@ -52,7 +52,7 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
       }
     }
     int error = 0;
-    if (take_datagram(into, error)) {
+    if (next_datagram(into, error)) {
       if (was_longer_) return malformed();
       continue;
     }
@@ -73,7 +73,7 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
 }
 
 /// The next datagram of a sender that is allowed.
-bool DatagramSource::take_datagram(Reception& into, int& error) noexcept {
+bool DatagramSource::next_datagram(Reception& into, int& error) noexcept {
   for (;;) {
     const auto datagram = socket_->next(error);
     if (!datagram) return false;

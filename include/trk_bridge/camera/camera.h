@@ -66,12 +66,6 @@ using Result = tl::expected<T, CameraReason>;
 [[nodiscard]] Result<wire::CameraParams> encode(const Camera&, std::uint32_t format,
                                                 const wire::CameraConstants* constants) noexcept;
 
-/// What Converter::convert makes of `params`, with the sender's constants and those for the receiver from the caller;
-/// either may be null where not needed.
-[[nodiscard]] Result<wire::CameraParams> reexpress(const wire::CameraParams& params, std::uint32_t format,
-                                                   const wire::CameraConstants* incoming,
-                                                   const wire::CameraConstants* outgoing) noexcept;
-
 /// Constants to send with parameters in `format`: the fake chip agrees with its aspect option. One that agrees already
 /// to the digits of ASCII records (2e-5) is left alone, as are constants that do not pass check().
 [[nodiscard]] wire::CameraConstants constants_for(const wire::CameraConstants&, std::uint32_t format) noexcept;

@@ -37,7 +37,7 @@ class Converter {
 
   /// Constants of the camera that the parameters come from. Whoever must not use older ones where the new ones are
   /// unsound calls forget().
-  [[nodiscard]] ConstantsChange take(const wire::CameraConstants&) noexcept;
+  [[nodiscard]] ConstantsChange use(const wire::CameraConstants&) noexcept;
   /// Back to no constants.
   void forget() noexcept { constants_.reset(); }
 

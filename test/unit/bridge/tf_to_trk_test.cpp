@@ -45,7 +45,7 @@ Eigen::Isometry3d pose() {
 
 TEST(TfToTrk, PoseLensAndParametersInOneSet) {
   TfToTrk converter(options());
-  converter.take(info(), field(0), 0);
+  converter.use(info(), field(0), 0);
   const auto made = converter.make(pose(), field(0), 9);
   ASSERT_TRUE(made && made->constants);
   const auto& p = made->params;
@@ -74,7 +74,7 @@ TEST(TfToTrk, AnOpticalFrameIsTurnedBack) {
   camera_T_optical.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   configured.frame_T_camera = camera_T_optical.inverse();
   TfToTrk converter(configured);
-  converter.take(info(), field(0), 0);
+  converter.use(info(), field(0), 0);
   // The optical frame of a camera that looks along the studio's y axis: a turn of -90 degrees about x.
   Eigen::Isometry3d optical(Eigen::AngleAxisd(-M_PI / 2, Eigen::Vector3d::UnitX()));
   const auto made = converter.make(optical, field(0), 0);
@@ -86,7 +86,7 @@ TEST(TfToTrk, AnOpticalFrameIsTurnedBack) {
 
 TEST(TfToTrk, CountsUpByOneWithEverySet) {
   TfToTrk converter(options());
-  converter.take(info(), field(0), 0);
+  converter.use(info(), field(0), 0);
   for (int n = 1; n <= 5; ++n) {
     const auto made = converter.make(pose(), field(3 * n), 0);
     ASSERT_TRUE(made);
@@ -97,7 +97,7 @@ TEST(TfToTrk, CountsUpByOneWithEverySet) {
 
 TEST(TfToTrk, OnlyNewerPosesAreNewUnlessTimeJumpedBack) {
   TfToTrk converter(options());
-  converter.take(info(), field(0), 0);
+  converter.use(info(), field(0), 0);
   EXPECT_TRUE(converter.is_new(field(10)));
   ASSERT_TRUE(converter.make(pose(), field(10), 0));
   EXPECT_FALSE(converter.is_new(field(10)));
@@ -111,7 +111,7 @@ TEST(TfToTrk, NothingWithoutALens) {
   TfToTrk converter(options());
   EXPECT_FALSE(converter.make(pose(), field(0), 0));
   EXPECT_EQ(converter.statistics().sets, 0u);
-  converter.take(info(), field(1), 0);
+  converter.use(info(), field(1), 0);
   const auto made = converter.make(pose(), field(1), 0);
   ASSERT_TRUE(made);
   EXPECT_EQ(made->params.counter, 1u) << "what was not sent was not counted";
@@ -119,7 +119,7 @@ TEST(TfToTrk, NothingWithoutALens) {
 
 TEST(TfToTrk, ALensGoesWithThePoseOfItsStamp) {
   TfToTrk converter(options());
-  for (int n = 0; n < 10; ++n) converter.take(info(2000 + 200 * n), field(n), 0);
+  for (int n = 0; n < 10; ++n) converter.use(info(2000 + 200 * n), field(n), 0);
   EXPECT_NEAR(converter.make(pose(), field(4), 0)->params.fov, 14, 1e-9);
   EXPECT_NEAR(converter.make(pose(), field(6) + second / 200, 0)->params.fov, 16, 1e-9) << "the one before it";
   EXPECT_NEAR(converter.make(pose(), field(50), 0)->params.fov, 19, 1e-9);
@@ -130,20 +130,20 @@ TEST(TfToTrk, ALensGoesWithThePoseOfItsStamp) {
 TEST(TfToTrk, ExpectsALensAsLongAsTheyComeWithThePoses) {
   TfToTrk converter(options());
   EXPECT_TRUE(converter.expects_lens(field(0)));
-  converter.take(info(), field(0), 0);
+  converter.use(info(), field(0), 0);
   EXPECT_FALSE(converter.expects_lens(field(0)));
   ASSERT_TRUE(converter.make(pose(), field(0), 0));
   EXPECT_TRUE(converter.expects_lens(field(1)));
   ASSERT_TRUE(converter.make(pose(), field(1), 0)) << "it did not come";
   EXPECT_FALSE(converter.expects_lens(field(2))) << "and is not waited for any more";
-  converter.take(info(), field(2), 0);
+  converter.use(info(), field(2), 0);
   ASSERT_TRUE(converter.make(pose(), field(2), 0));
   EXPECT_TRUE(converter.expects_lens(field(3))) << "until they come in step again";
 }
 
 TEST(TfToTrk, APoseThatIsNotFiniteIsDropped) {
   TfToTrk converter(options());
-  converter.take(info(), field(0), 0);
+  converter.use(info(), field(0), 0);
   auto nowhere = pose();
   nowhere.translation().x() = std::nan("");
   EXPECT_FALSE(converter.make(nowhere, field(0), 0));
@@ -158,13 +158,13 @@ TEST(TfToTrk, APoseThatIsNotFiniteIsDropped) {
 TEST(TfToTrk, FitsOnlyWhatChanged) {
   TfToTrk converter(options());
   auto i = info();
-  for (int n = 0; n < 10; ++n) converter.take(i, field(n), 0);
+  for (int n = 0; n < 10; ++n) converter.use(i, field(n), 0);
   EXPECT_EQ(converter.statistics().fits, 1u);
   EXPECT_EQ(converter.statistics().infos, 10u);
   i.d[0] = 0.01;
-  converter.take(i, field(10), 0);
+  converter.use(i, field(10), 0);
   i.k[0] += 1;
-  converter.take(i, field(11), 0);
+  converter.use(i, field(11), 0);
   EXPECT_EQ(converter.statistics().fits, 3u);
 }
 
@@ -174,7 +174,7 @@ TEST(TfToTrk, ThePictureOfCameraInfoMakesTheConstants) {
   configured.chip.blank_right = 10;
   TfToTrk converter(configured);
   auto i = info();
-  converter.take(i, field(0), 0);
+  converter.use(i, field(0), 0);
   auto made = converter.make(pose(), field(0), 0);
   ASSERT_TRUE(made->constants);
   EXPECT_EQ(made->constants->blank_left, 20);
@@ -182,7 +182,7 @@ TEST(TfToTrk, ThePictureOfCameraInfoMakesTheConstants) {
   EXPECT_NEAR(sent.fake_chip_height, 5.4 * 1920 / 1890, 1e-12);
   i.width = 1280;
   i.height = 720;
-  converter.take(i, field(1), 0);
+  converter.use(i, field(1), 0);
   made = converter.make(pose(), field(1), 0);
   ASSERT_TRUE(made->constants) << "changed";
   EXPECT_EQ(made->constants->image_width, 1280);
@@ -190,10 +190,10 @@ TEST(TfToTrk, ThePictureOfCameraInfoMakesTheConstants) {
 
 TEST(TfToTrk, FocusAndApertureOfTheLensTopic) {
   TfToTrk converter(options());
-  converter.take(info(), field(0), 0);
-  converter.take_lens(12, 4);
-  converter.take_lens(std::nan(""), 5);
-  converter.take_lens(13, std::numeric_limits<double>::infinity());
+  converter.use(info(), field(0), 0);
+  converter.use_lens(12, 4);
+  converter.use_lens(std::nan(""), 5);
+  converter.use_lens(13, std::numeric_limits<double>::infinity());
   const auto made = converter.make(pose(), field(0), 0);
   EXPECT_EQ(made->params.focdist, 12);
   EXPECT_EQ(made->params.aperture, 4);
@@ -206,7 +206,7 @@ TEST(TfToTrk, CountsWhatTrkCannotCarryOfTheLens) {
   auto i = info();
   i.d = {-0.1, 0.01, 0.002, 0, 0};
   i.k[4] = 2010;
-  converter.take(i, field(0), 0);
+  converter.use(i, field(0), 0);
   const auto& statistics = converter.statistics();
   EXPECT_GT(statistics.tangential, 0.5);
   // Rows reach 540 pixels from the axis, and fy is 0.5 % off.
@@ -224,15 +224,15 @@ class RefusesCameraInfo : public ::testing::TestWithParam<Refused> {};
 
 TEST_P(RefusesCameraInfo, NothingIsSentUntilAnotherComes) {
   TfToTrk converter(options());
-  converter.take(info(), field(0), 0);
+  converter.use(info(), field(0), 0);
   auto bad = info();
   GetParam().spoil(bad);
-  converter.take(bad, field(1), 0);
+  converter.use(bad, field(1), 0);
   EXPECT_FALSE(converter.make(pose(), field(1), 0)) << "not with the lens before";
   EXPECT_TRUE(converter.statistics().info_is_refused);
   EXPECT_EQ(converter.statistics().info_fault.reason, GetParam().reason);
   EXPECT_FALSE(describe(converter.statistics().info_fault).empty());
-  converter.take(info(), field(2), 0);
+  converter.use(info(), field(2), 0);
   EXPECT_TRUE(converter.make(pose(), field(2), 0));
   EXPECT_FALSE(converter.statistics().info_is_refused);
   EXPECT_EQ(converter.statistics().refused_infos, 1u);
@@ -256,7 +256,7 @@ TEST(TfToTrk, NoModelWithoutCoefficientsIsAccepted) {
   auto i = info();
   i.distortion_model = "";
   i.d.clear();
-  converter.take(i, field(0), 0);
+  converter.use(i, field(0), 0);
   EXPECT_TRUE(converter.make(pose(), field(0), 0));
 }
 

@@ -50,7 +50,7 @@ TEST(Allocation, DoesNotHappenForSamples) {
       const auto params = encode(camera, masks[i], &constants);
       const auto back = params ? decode(*params, &constants) : tl::unexpected(params.error());
       Converter converter(masks[masks.size() - 1 - i]);
-      all_good = all_good && converter.take(constants) == ConstantsChange::changed;
+      all_good = all_good && converter.use(constants) == ConstantsChange::changed;
       const auto converted = params ? converter.convert(*params).params : params;
       const auto encoded = converter.convert(camera);
       const auto refused = encode(camera, 0x400, &constants);

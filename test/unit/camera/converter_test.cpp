@@ -40,7 +40,7 @@ CameraParams awkward(std::uint32_t format) {
 
 Converter converter_with(const CameraConstants& constants, std::optional<std::uint32_t> format) {
   Converter converter(format);
-  EXPECT_EQ(converter.take(constants), ConstantsChange::changed);
+  EXPECT_EQ(converter.use(constants), ConstantsChange::changed);
   return converter;
 }
 
@@ -175,7 +175,7 @@ TEST(Converter, KeepsWhatItNeedNotUnderstand) {
     EXPECT_EQ(converted.pose.error(), CameraReason::not_a_rotation);
     ASSERT_FALSE(converted.lens);
     EXPECT_EQ(converted.lens.error(), i == 0 ? CameraReason::constants_needed : CameraReason::bad_field_of_view);
-    EXPECT_NE(converter.take(known), ConstantsChange::unsound);
+    EXPECT_NE(converter.use(known), ConstantsChange::unsound);
   }
 }
 
@@ -237,8 +237,8 @@ TEST(Converter, TakesConstants) {
 
   CameraConstants constants = known;
   constants.id = 7;
-  EXPECT_EQ(converter.take(constants), ConstantsChange::changed);
-  EXPECT_EQ(converter.take(constants), ConstantsChange::unchanged);
+  EXPECT_EQ(converter.use(constants), ConstantsChange::changed);
+  EXPECT_EQ(converter.use(constants), ConstantsChange::unchanged);
   EXPECT_EQ(*converter.incoming(), constants);
   CameraConstants expected = constants;
   expected.fake_chip_width = 9.59 * 720 / 704;
@@ -249,10 +249,10 @@ TEST(Converter, TakesConstants) {
   EXPECT_NEAR(converter.outgoing()->fake_chip_height, expected.fake_chip_height, 1e-12);
 
   constants.id = 8;
-  EXPECT_EQ(converter.take(constants), ConstantsChange::changed);
+  EXPECT_EQ(converter.use(constants), ConstantsChange::changed);
   EXPECT_EQ(converter.outgoing()->id, 8U);
   constants.blank_top = 3;
-  EXPECT_EQ(converter.take(constants), ConstantsChange::changed);
+  EXPECT_EQ(converter.use(constants), ConstantsChange::changed);
   EXPECT_EQ(*converter.incoming(), constants);
   EXPECT_EQ(converter.outgoing()->blank_top, 3);
 }
@@ -261,14 +261,14 @@ TEST(Converter, KeepsTheConstantsWhereNewOnesAreUnsound) {
   Converter converter(wire::field_of_view);
   CameraConstants unsound = known;
   unsound.image_width = 0;
-  EXPECT_EQ(converter.take(unsound), ConstantsChange::unsound);
+  EXPECT_EQ(converter.use(unsound), ConstantsChange::unsound);
   EXPECT_EQ(converter.incoming(), nullptr);
-  EXPECT_EQ(converter.take(known), ConstantsChange::changed);
-  EXPECT_EQ(converter.take(unsound), ConstantsChange::unsound);
+  EXPECT_EQ(converter.use(known), ConstantsChange::changed);
+  EXPECT_EQ(converter.use(unsound), ConstantsChange::unsound);
   ASSERT_NE(converter.incoming(), nullptr);
   EXPECT_EQ(*converter.incoming(), known);
   EXPECT_TRUE(converter.convert(awkward(0)).params);
-  EXPECT_EQ(converter.take(known), ConstantsChange::unchanged);
+  EXPECT_EQ(converter.use(known), ConstantsChange::unchanged);
 }
 
 TEST(Converter, ForgetsTheConstants) {
@@ -277,7 +277,7 @@ TEST(Converter, ForgetsTheConstants) {
   EXPECT_EQ(converter.incoming(), nullptr);
   EXPECT_EQ(converter.outgoing(), nullptr);
   EXPECT_FALSE(converter.convert(awkward(0)).params);
-  EXPECT_EQ(converter.take(known), ConstantsChange::changed);
+  EXPECT_EQ(converter.use(known), ConstantsChange::changed);
 }
 
 TEST(Converter, ConvertsCanonicalCameras) {

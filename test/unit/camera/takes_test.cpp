@@ -41,7 +41,7 @@ TEST_P(Takes, AreTheSameMotion) {
   const Take reference = read_take("euler");
   const Take take = read_take(GetParam());
   Converter converter(reference.params.front().format);
-  ASSERT_EQ(converter.take(take.constants), ConstantsChange::changed);
+  ASSERT_EQ(converter.use(take.constants), ConstantsChange::changed);
   ASSERT_EQ(reference.params.size(), 2259U);
   ASSERT_EQ(take.params.size(), reference.params.size());
   for (std::size_t i = 0; i < take.params.size() && !HasFailure(); ++i) {
@@ -63,7 +63,7 @@ TEST_P(Takes, AreTheSameMotion) {
 TEST_P(Takes, StayAsTheyAreInTheirOwnFormat) {
   const Take take = read_take(GetParam());
   Converter converter(take.params.front().format);
-  ASSERT_EQ(converter.take(take.constants), ConstantsChange::changed);
+  ASSERT_EQ(converter.use(take.constants), ConstantsChange::changed);
   EXPECT_EQ(*converter.outgoing(), take.constants);
   for (const auto& params : take.params) {
     const auto out = converter.convert(params).params;
