@@ -142,8 +142,8 @@ TEST_F(WriteTake, AFileThatCameMeanwhileIsNotOverwritten) {
 
 TEST_F(WriteTake, OnlyOneWriterAtATime) {
   TakeWriter writer(path, code, false);
-  EXPECT_THAT(opening_error(), HasSubstr("another writer is at work"));
-  EXPECT_THAT(opening_error(true), HasSubstr("another writer is at work"));
+  EXPECT_THAT(opening_error(), HasSubstr("another writer is writing"));
+  EXPECT_THAT(opening_error(true), HasSubstr("another writer is writing"));
 }
 
 TEST_F(WriteTake, ConstantsComeFirstAndStay) {
