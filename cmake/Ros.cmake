@@ -32,7 +32,8 @@ generate_messages(DEPENDENCIES std_msgs)
 
 catkin_package(
   INCLUDE_DIRS include
-  LIBRARIES trk trk_bridge_camera trk_bridge_endpoints trk_bridge_ros trk_bridge_transport trk_bridge_wire
+  LIBRARIES trk trk_bridge_base trk_bridge_bridge trk_bridge_camera trk_bridge_endpoints trk_bridge_ros
+    trk_bridge_transport trk_bridge_wire
   CATKIN_DEPENDS
     diagnostic_msgs
     diagnostic_updater
