@@ -49,8 +49,8 @@ TEST(Allocation, DoesNotHappenForSamples) {
   params.center_x = 3;
   int whole = 0, poses = 0, dropped = 0;
   const std::uint64_t count = allocations_of([&] {
-    for (std::int64_t i = 0; i < 300; ++i) {
-      sample.arrival = 1'700'000'000'000'000'000 + i * 20'000'000;
+    for (int i = 0; i < 300; ++i) {
+      sample.arrival = 1'700'000'000'000'000'000 + std::int64_t{i} * 20'000'000;
       auto sent = constants();
       sent.chip_width += 1e-3 * i;
       sample.record = sent;
