@@ -181,8 +181,7 @@ tl::expected<Eigen::Isometry3d, std::string> pose_of(Poses& poses, const sensor_
                                                      const BagToTakeOptions& options) {
   if (info.header.stamp.isZero()) return tl::unexpected(std::string("camera_info without a stamp"));
   const bool is_optical = !options.camera_frame || options.camera_frame_is_optical;
-  const auto pose =
-      poses.at(info.header.stamp, options.studio_frame, options.camera_frame.value_or(info.header.frame_id));
+  auto pose = poses.at(info.header.stamp, options.studio_frame, options.camera_frame.value_or(info.header.frame_id));
   if (!pose || !is_optical) return pose;
   return *pose * ros1::camera_T_optical().inverse();
 }

@@ -7,7 +7,7 @@
 
 namespace trk_bridge::nodes {
 
-RosToTrk::RosToTrk(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name)
+RosToTrk::RosToTrk(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node, const std::string& name)
     : diagnostics_(node, private_node, name) {
   const auto parameters =
       ros1::read_ros_to_trk_parameters(private_parameters(private_node), camera_name_of(node.getNamespace()));

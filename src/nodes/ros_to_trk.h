@@ -18,7 +18,7 @@ class RosToTrk {
  public:
   /// Topics are in the namespace of `node`, parameters in that of `private_node`; `name` is the node's or nodelet's
   /// full name. Throws ParameterError and TransportError.
-  RosToTrk(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name);
+  RosToTrk(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node, const std::string& name);
 
  private:
   std::vector<std::unique_ptr<SinkOutput>> sinks_;

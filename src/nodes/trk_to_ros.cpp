@@ -24,8 +24,8 @@ namespace {
 
 }  // namespace
 
-TrkToRos::TrkToRos(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name)
-    : node_(std::move(node)), diagnostics_(node_, private_node, name) {
+TrkToRos::TrkToRos(const ::ros::NodeHandle& node, ::ros::NodeHandle private_node, const std::string& name)
+    : node_(node), diagnostics_(node_, private_node, name) {
   const auto parameters =
       ros1::read_trk_to_ros_parameters(private_parameters(private_node), camera_name_of(node_.getNamespace()));
   open(parameters, advertise_markers(private_node, parameters));

@@ -21,7 +21,7 @@ class TrkToRos {
  public:
   /// Topics are in the namespace of `node`, parameters in that of `private_node`; `name` is the node's or nodelet's
   /// full name. Throws ParameterError and TransportError.
-  TrkToRos(::ros::NodeHandle node, ::ros::NodeHandle private_node, const std::string& name);
+  TrkToRos(const ::ros::NodeHandle& node, ::ros::NodeHandle private_node, const std::string& name);
 
  private:
   void open(const ros1::TrkToRosParameters&, const ::ros::Publisher& markers);
