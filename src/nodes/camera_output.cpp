@@ -7,12 +7,12 @@
 namespace trk_bridge::nodes {
 
 CameraOutput::CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters& parameters, double field_rate,
-                           int queue_size, ::ros::Publisher markers)
+                           int queue_size, const ::ros::Publisher& markers)
     : parameters_(parameters),
       pipeline_(parameters.options, field_rate),
       messages_(parameters.frames),
       field_rate_(field_rate),
-      marker_topic_(std::move(markers)),
+      marker_topic_(markers),
       log_(parameters.name) {
   if (parameters.publish_markers) {
     markers_.emplace(parameters.name, parameters.frames.optical, parameters.marker_far,

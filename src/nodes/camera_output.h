@@ -24,7 +24,7 @@ class CameraOutput {
   /// Advertises `params`, `constants` and `camera_info` in the namespace of `node`, and publishes the parameter's
   /// constants where there are any. `markers` is a topic that cameras share; it counts where publish_markers is set.
   CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&, double field_rate, int queue_size,
-               ::ros::Publisher markers);
+               const ::ros::Publisher& markers);
 
   bool wants(const wire::Record& record) const noexcept { return pipeline_.wants(record); }
   /// Publishes what comes of a sample before it returns. `now` is the steady clock's time of receipt, ns.

@@ -15,7 +15,7 @@ using test::params;
 TEST(ParamsToTrk, ParametersGoAsTheyCame) {
   ParamsToTrk input;
   const auto p = params(1000, 7);
-  const auto set = input.take(p, 5);
+  const auto set = input.use(p, 5);
   EXPECT_EQ(set.params, p);
   EXPECT_FALSE(set.constants) << "none are known";
   EXPECT_EQ(input.statistics().received, 1u);
@@ -26,39 +26,39 @@ TEST(ParamsToTrk, ParametersGoAsTheyCame) {
 
 TEST(ParamsToTrk, ConstantsHaveTheIdOfTheParamsTheyGoWith) {
   ParamsToTrk input;
-  input.take(constants(720, 3));
-  EXPECT_EQ(input.take(params(1, 7), 0).constants, constants(720, 7));
-  EXPECT_FALSE(input.take(params(2, 7), 0).constants) << "given before";
-  EXPECT_EQ(input.take(params(3, 8), 0).constants, constants(720, 8));
-  EXPECT_EQ(input.take(params(4, 7), 0).constants, constants(720, 7)) << "with the id, again";
+  input.use(constants(720, 3));
+  EXPECT_EQ(input.use(params(1, 7), 0).constants, constants(720, 7));
+  EXPECT_FALSE(input.use(params(2, 7), 0).constants) << "given before";
+  EXPECT_EQ(input.use(params(3, 8), 0).constants, constants(720, 8));
+  EXPECT_EQ(input.use(params(4, 7), 0).constants, constants(720, 7)) << "with the id, again";
 }
 
 TEST(ParamsToTrk, ChangedConstantsGoAgainUnchangedOnesDoNot) {
   ParamsToTrk input;
-  input.take(constants());
-  EXPECT_TRUE(input.take(params(1), 0).constants);
-  input.take(constants());
-  EXPECT_FALSE(input.take(params(2), 0).constants);
+  input.use(constants());
+  EXPECT_TRUE(input.use(params(1), 0).constants);
+  input.use(constants());
+  EXPECT_FALSE(input.use(params(2), 0).constants);
   auto other = constants();
   other.blank_left = 10;
-  input.take(other);
-  EXPECT_EQ(input.take(params(3), 0).constants, other);
+  input.use(other);
+  EXPECT_EQ(input.use(params(3), 0).constants, other);
 }
 
 TEST(ParamsToTrk, TheNewestConstantsCountWhateverTheirId) {
   ParamsToTrk input;
-  input.take(constants(720, 7));
-  input.take(constants(1920, 9));
-  EXPECT_EQ(input.take(params(1, 7), 0).constants, constants(1920, 7));
+  input.use(constants(720, 7));
+  input.use(constants(1920, 9));
+  EXPECT_EQ(input.use(params(1, 7), 0).constants, constants(1920, 7));
 }
 
 TEST(ParamsToTrk, ConstantsOfTheParameterCountUntilOthersCome) {
   ParamsToTrk input(constants(1920));
   EXPECT_TRUE(input.statistics().constants_known);
-  EXPECT_EQ(input.take(params(1), 0).constants->image_width, 1920);
+  EXPECT_EQ(input.use(params(1), 0).constants->image_width, 1920);
   EXPECT_FALSE(input.statistics().constants_received);
-  input.take(constants());
-  EXPECT_EQ(input.take(params(2), 0).constants->image_width, 720);
+  input.use(constants());
+  EXPECT_EQ(input.use(params(2), 0).constants->image_width, 720);
   EXPECT_TRUE(input.statistics().constants_received);
 }
 
@@ -66,12 +66,12 @@ TEST(ParamsToTrk, ConstantsWithoutAPictureAreIgnored) {
   ParamsToTrk input;
   auto bad = constants();
   bad.blank_left = 720;
-  input.take(bad);
-  EXPECT_FALSE(input.take(params(1), 0).constants);
+  input.use(bad);
+  EXPECT_FALSE(input.use(params(1), 0).constants);
   EXPECT_EQ(input.statistics().bad_constants, 1u);
-  input.take(constants());
-  input.take(bad);
-  EXPECT_EQ(input.take(params(2), 0).constants, constants()) << "those before stay";
+  input.use(constants());
+  input.use(bad);
+  EXPECT_EQ(input.use(params(2), 0).constants, constants()) << "those before stay";
   EXPECT_EQ(input.statistics().bad_constants, 2u);
 }
 
