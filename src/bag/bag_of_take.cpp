@@ -74,7 +74,7 @@ class TakeCamera {
   bridge::CameraUpdate process(const wire::Record& record, std::int64_t stamp) {
     sample_.record = record;
     sample_.arrival = stamp;
-    const auto update = pipeline_.process(sample_, stamp);
+    auto update = pipeline_.process(sample_, stamp);
     messages_.make(update);
     return update;
   }
