@@ -255,6 +255,8 @@ constexpr const Program& program_named(std::string_view name) {
 }  // namespace
 }  // namespace trk_bridge::programs
 
+// Declaring options throws where the program itself is wrong, and ends it: nothing else here is outside run_program.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   using namespace trk_bridge;
   constexpr const programs::Program& program = programs::program_named(TRK_BRIDGE_PROGRAM);

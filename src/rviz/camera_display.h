@@ -37,15 +37,15 @@ class CameraDisplay : public rviz::Display {
   /// Of either type; the other topic is taken from the same namespace where it is advertised there.
   void setTopic(const QString& topic, const QString& datatype) override;
 
- protected:
-  void onInitialize() override;
-  void onEnable() override;
-  void onDisable() override;
-
  private Q_SLOTS:
   void subscribeInfo();
   void subscribeParams();
   void updateStyle();
+
+ protected:
+  void onInitialize() override;
+  void onEnable() override;
+  void onDisable() override;
 
  private:
   /// What one rendered frame shows.

@@ -69,16 +69,16 @@ Lines::Lines(Ogre::SceneManager* scene, Ogre::SceneNode* parent) : line_(scene, 
 
 void Lines::show(const std::vector<Eigen::Vector3d>& pairs, const Ogre::ColourValue& colour, float width) {
   line_.clear();
-  const auto segments = static_cast<std::uint32_t>(pairs.size() / 2);
+  const std::size_t segments = pairs.size() / 2;
   if (segments == 0) return;
   if (segments > room_) {
-    room_ = segments + segments / 2;
+    room_ = static_cast<std::uint32_t>(segments + segments / 2);
     line_.setNumLines(room_);
   }
   width_ = width;
   line_.setLineWidth(width);
   line_.setColor(colour.r, colour.g, colour.b, colour.a);
-  for (std::uint32_t i = 0; i < segments; ++i) {
+  for (std::size_t i = 0; i < segments; ++i) {
     if (i > 0) line_.newLine();
     line_.addPoint(to_ogre(pairs[2 * i]));
     line_.addPoint(to_ogre(pairs[2 * i + 1]));

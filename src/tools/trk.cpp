@@ -182,6 +182,8 @@ class PresetsCommand {
 }  // namespace
 }  // namespace trk_bridge::tools
 
+// Declaring options throws where the program itself is wrong, and ends it: nothing else here is outside run_program.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   using namespace trk_bridge;
   using namespace trk_bridge::tools;

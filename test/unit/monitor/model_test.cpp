@@ -46,7 +46,7 @@ TEST_F(ModelTest, KnowsNothingAtFirst) {
 }
 
 TEST_F(ModelTest, TellsRateCounterLossAndAge) {
-  for (const std::uint64_t counter : {100, 101, 103, 102, 103, 104}) {
+  for (const std::uint64_t counter : {100U, 101U, 103U, 102U, 103U, 104U}) {
     add(test::params(counter, 7), milliseconds(20 * static_cast<int>(counter - 100)));
   }
   const auto s = state(milliseconds(105));
