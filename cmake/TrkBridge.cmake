@@ -24,6 +24,8 @@ function(trk_bridge_library name)
   add_library(${name} SHARED ${ARG_UNPARSED_ARGUMENTS})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+  # Other projects include its headers, and their compiler may begin with an older C++.
+  target_compile_features(${name} PUBLIC cxx_std_17)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} trk_bridge_options)
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN")
   set(export)

@@ -24,7 +24,7 @@ float covered(float inside) {
 
 std::uint8_t mixed(float part, std::uint8_t from, std::uint8_t to) {
   constexpr float rounding = 0.5F;
-  return static_cast<std::uint8_t>(from + part * static_cast<float>(to - from) + rounding);
+  return static_cast<std::uint8_t>(static_cast<float>(from) + part * static_cast<float>(to - from) + rounding);
 }
 
 /// Whole numbers from..to (both included) within `around` of `center` and 0..`size` - 1.
