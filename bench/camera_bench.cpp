@@ -56,7 +56,7 @@ void calibrate_kept(benchmark::State& state) {
 }
 BENCHMARK(calibrate_kept);
 
-void calibrate_anew(benchmark::State& state, camera::Lens lens) {
+void calibrate_new_lens(benchmark::State& state, camera::Lens lens) {
   camera::Calibrator calibrator;
   const double k1 = lens.k1;
   int step = 0;
@@ -65,8 +65,8 @@ void calibrate_anew(benchmark::State& state, camera::Lens lens) {
     benchmark::DoNotOptimize(calibrator.calibrate(lens, constants));
   }
 }
-BENCHMARK_CAPTURE(calibrate_anew, plumb_bob, mild);
-BENCHMARK_CAPTURE(calibrate_anew, rational_polynomial, strong);
+BENCHMARK_CAPTURE(calibrate_new_lens, plumb_bob, mild);
+BENCHMARK_CAPTURE(calibrate_new_lens, rational_polynomial, strong);
 
 void distort(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(camera::distort(strong, {3, 2}));

@@ -181,7 +181,7 @@ TEST_F(FromParams, WhatIsNoCameraIsNotSent) {
   EXPECT_EQ(receiver.params.size(), 1u);
 }
 
-TEST_F(FromParams, ARemovedSegmentIsMadeAnewWithItsConstants) {
+TEST_F(FromParams, ARemovedSegmentIsRecreatedWithItsConstants) {
   FreeSlot slot;
   const std::string shm = "shm:" + std::to_string(slot.number());
   ASSERT_NO_FATAL_FAILURE(open({shm, receiver.url()}));

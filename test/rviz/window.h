@@ -52,7 +52,7 @@ class RvizWindow {
   /// met.
   bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds within = deadline);
 
-  /// Handles what there is to do until rviz has drawn the scene anew, from its beginning, so many times.
+  /// Handles pending work until rviz has drawn `frames` whole new frames.
   ::testing::AssertionResult draws(int frames = 2);
 
   void load(const std::string& path);

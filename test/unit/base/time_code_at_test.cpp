@@ -38,7 +38,7 @@ TEST(TimeCodeAt, NominalSecondsAreLongerThanSecondsBelowTheNominalRate) {
   EXPECT_EQ(code_at(3600 * 1'001'000'000LL, 60000.0 / 1001.0), "01:00:00:00:1");
 }
 
-TEST(TimeCodeAt, TheDayBeginsAnew) {
+TEST(TimeCodeAt, StartsAgainAtMidnight) {
   EXPECT_EQ(code_at(86399 * second + 980'000'000, 50), "23:59:59:24:2");
   EXPECT_EQ(code_at(86400 * second, 50), "00:00:00:00:1");
 }

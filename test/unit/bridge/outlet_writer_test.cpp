@@ -135,7 +135,7 @@ TEST_F(OutletWriterTest, OnlyNewConstantsGoOut) {
   EXPECT_EQ(gate.constants().size(), 2u);
 }
 
-TEST_F(OutletWriterTest, OneCamerasConstantsCountForAllIdsAndGoAgainWithANewOne) {
+TEST_F(OutletWriterTest, OneCamerasConstantsServeAllIdsAndAreSentAgainWhenTheIdChanges) {
   auto outlet = writer(form_of("euler field_of_view"), one_camera);
   outlet.write(constants(720, 7));
   outlet.write(params(1, 8));

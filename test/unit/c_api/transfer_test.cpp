@@ -97,7 +97,7 @@ TEST_F(Memory, configures_every_documented_flag) {
   EXPECT_EQ(trkMemConfigure(0x80), trkFailed);
 }
 
-TEST_F(Memory, recreate_makes_it_anew_when_all_others_have_left) {
+TEST_F(Memory, recreate_replaces_it_when_all_others_have_left) {
   ASSERT_EQ(trkMemConfigure(trkMemDefault | trkMemRecreate), trkOK);
   ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
   ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
@@ -205,7 +205,7 @@ TEST_P(Net, every_call_sends_constants) {
 
 TEST_P(Net, a_malformed_datagram_costs_itself_alone) {
   send({1});
-  PlainSocket().send(std::string("DMC01\0PA1 rubbish", 17), "127.0.0.1", port);
+  PlainSocket().send(std::string("DMC01\0PA1 garbage", 17), "127.0.0.1", port);
   PlainSocket().send("", "127.0.0.1", port);
   send({2});
   ASSERT_EQ(trkNetReadParams(reader, &p), trkOK);

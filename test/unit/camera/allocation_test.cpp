@@ -1,42 +1,17 @@
 // What runs for every sample allocates nothing.
 #include <gmock/gmock.h>
 
-#include <atomic>
-#include <cstdlib>
-
+#include "allocations.h"
 #include "camera/figure.h"
 #include "random_cameras.h"
 #include "trk_bridge/camera/calibration.h"
 #include "trk_bridge/camera/converter.h"
 #include "trk_bridge/camera/image.h"
 
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}  // namespace
-
-// Eigen asks malloc, not operator new, and new asks malloc: one place sees both. glibc lets a program put its own in
-// front.
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  return __libc_malloc(size);
-}
-
 namespace trk_bridge::camera {
 namespace {
 
-template <typename Work>
-std::uint64_t allocations_of(const Work& work) {
-  const std::uint64_t before = allocations.load();
-  work();
-  return allocations.load() - before;
-}
-
-TEST(Allocation, IsSeenByThisTest) {
-  void* volatile block = nullptr;
-  EXPECT_EQ(allocations_of([&block] { block = ::operator new(100); }), 1U);
-  ::operator delete(block);
-}
+using test::allocations_of;
 
 TEST(Allocation, DoesNotHappenForSamples) {
   test::RandomCameras random;

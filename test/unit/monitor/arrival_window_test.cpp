@@ -76,7 +76,7 @@ TEST(ArrivalWindow, HoldsABoundedNumber) {
   EXPECT_EQ(window.jitter().value().worst, 0);
 }
 
-TEST(ArrivalWindow, AClockSetBackBeginsItAnew) {
+TEST(ArrivalWindow, RestartsWhenTheClockIsSetBack) {
   ArrivalWindow window;
   for (const std::int64_t at : {1000, 1020, 1100}) window.add(at * ms);
   window.add(5 * ms);

@@ -75,7 +75,7 @@ TEST(RestWindow, StandsStillThreeSecondsAfterAMove) {
   EXPECT_EQ(rest_after(5.1, pose).motion, Motion::still);
 }
 
-TEST(RestWindow, AClockSetBackBeginsItAnew) {
+TEST(RestWindow, RestartsWhenTheClockIsSetBack) {
   RestWindow window;
   for (int n = 0; n <= 150; ++n) window.add(n * field, {});
   window.add(0, {});

@@ -1,4 +1,4 @@
-// Which lens is drawn, when it is worked out anew, and why some are none.
+// Which lens is drawn, when it is computed again, and why some cannot be drawn.
 #include "rviz/lens_view.h"
 
 #include <limits>

@@ -68,7 +68,7 @@ TEST(Samples, NumberIsBoundedHoweverFastTheyCome) {
   EXPECT_NEAR(stamp_of(samples.newest()), 100.09999, 1e-6);
 }
 
-TEST(Samples, TimeThatGoesBackBeyondTheWindowStartsAnew) {
+TEST(Samples, StartAgainWhenTimeGoesBackBeyondTheWindow) {
   InfoSamples samples;
   samples.add(info(100.0));
   samples.add(info(100.4));

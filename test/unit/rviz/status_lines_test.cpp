@@ -42,7 +42,7 @@ TEST_F(StatusLinesTest, LevelsAreToldAtOnce) {
   EXPECT_THAT(shown, ElementsAre("Lens0 good", "Lens2 bad"));
 }
 
-TEST_F(StatusLinesTest, RemovedOnesAreToldAnew) {
+TEST_F(StatusLinesTest, RemovedOnesAreShownAgain) {
   lines.remove("Lens");
   EXPECT_TRUE(shown.empty());
   lines.set(StatusLevel::ok, "Lens", "good", 0);

@@ -62,7 +62,7 @@ TEST(Trail, DoesNotGoBackInTimeNorOutOfSpace) {
   EXPECT_EQ(trail.points().back().position.x(), 1);
 }
 
-TEST(Trail, OfAnotherFrameStartsAnew) {
+TEST(Trail, StartsAgainInAnotherFrame) {
   Trail trail;
   trail.add(ros::Time(10), "one", along(0), 5);
   trail.add(ros::Time(11), "one", along(1), 5);

@@ -85,7 +85,7 @@ class Confused : public ::testing::Test {
   std::string url = "shm:" + std::to_string(slot.number());
 };
 
-TEST_F(Confused, an_eight_byte_magic_with_rubbish_above_is_foreign) {
+TEST_F(Confused, an_eight_byte_magic_with_garbage_above_is_foreign) {
   const int id = slot.make_segment(528);
   auto* memory = static_cast<char*>(::shmat(id, nullptr, 0));
   const std::uint64_t magic = 0x100000000ULL + segment_magic;

@@ -207,7 +207,7 @@ TEST_F(Shm, a_new_segment_has_the_mode_that_was_said_whatever_the_umask) {
   EXPECT_EQ(state.shm_segsz, 528U);
 }
 
-TEST_F(Shm, a_segment_removed_and_made_anew_is_followed) {
+TEST_F(Shm, reattaches_when_the_segment_is_recreated) {
   auto sink = open_sink(url());
   const auto source = open_source(url());
   ASSERT_TRUE(sink->write(params(1)));
@@ -241,7 +241,7 @@ TEST_F(Shm, a_slot_that_means_another_segment_is_followed_though_the_old_one_liv
   EXPECT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 2); }));
 }
 
-TEST_F(Shm, a_sink_makes_a_removed_segment_anew_with_its_constants) {
+TEST_F(Shm, a_sink_recreates_a_removed_segment_with_its_constants) {
   const auto sink = open_sink(url());
   ASSERT_TRUE(sink->write(constants()));
   slot.remove();

@@ -327,7 +327,7 @@ TEST(UdpSource, StatisticsWhileReceiving) {
   std::thread tracker([port = port_of(*source)] {
     const PlainSocket socket;
     for (std::uint64_t i = 0; i < sent; ++i) {
-      socket.send(i % 4 == 3 ? std::string("rubbish") : test::datagram(test::params(i)), "127.0.0.1", port);
+      socket.send(i % 4 == 3 ? std::string("garbage") : test::datagram(test::params(i)), "127.0.0.1", port);
     }
   });
   std::thread receiver([&source] {

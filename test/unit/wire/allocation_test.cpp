@@ -1,44 +1,15 @@
 // Reading and writing a record allocates nothing.
 #include <gmock/gmock.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <string>
 #include <vector>
 
+#include "allocations.h"
 #include "records.h"
 #include "trk_bridge/wire/codec.h"
 
-namespace {
-std::atomic<std::size_t> allocations{0};
-
-void* counted(std::size_t size) {
-  ++allocations;
-  if (void* const block = std::malloc(size == 0 ? 1 : size)) return block;
-  throw std::bad_alloc();
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size == 0 ? 1 : size);
-}
-void operator delete(void* block) noexcept { std::free(block); }
-void operator delete[](void* block) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t) noexcept { std::free(block); }
-void operator delete[](void* block, std::size_t) noexcept { std::free(block); }
-
 namespace trk_bridge::wire {
 namespace {
-
-TEST(Allocation, IsCounted) {
-  const std::size_t before = allocations;
-  delete new int;
-  EXPECT_EQ(allocations, before + 1);
-}
 
 std::vector<std::string> samples() {
   test::RandomRecords random(1);
@@ -65,22 +36,23 @@ TEST(Allocation, NoneWhileReadingAndWriting) {
   for (std::string& datagram : bad) datagram.resize(datagram.size() / 2);
   LayoutDetector detector;
   Buffer buffer;
-  std::size_t read = 0;
-  const std::size_t before = allocations;
-  for (const std::string& datagram : good) {
-    const auto decoded = decode(datagram, detector);
-    if (!decoded) continue;
-    ++read;
-    for (const Encoding encoding : {Encoding::ascii, Encoding::binary}) {
-      const WireForm form{encoding, decoded->form.layout};
-      if (!std::visit([&](const auto& record) { return encode(record, form, buffer).has_value(); }, decoded->record)) {
-        --read;
+  std::size_t read = 0, refused = 0;
+  const auto allocated = test::allocations_of([&] {
+    for (const std::string& datagram : good) {
+      const auto decoded = decode(datagram, detector);
+      if (!decoded) continue;
+      ++read;
+      for (const Encoding encoding : {Encoding::ascii, Encoding::binary}) {
+        const WireForm form{encoding, decoded->form.layout};
+        if (!std::visit([&](const auto& record) { return encode(record, form, buffer).has_value(); },
+                        decoded->record)) {
+          --read;
+        }
       }
     }
-  }
-  std::size_t refused = 0;
-  for (const std::string& datagram : bad) refused += decode(datagram, detector) ? 0U : 1U;
-  EXPECT_EQ(allocations, before);
+    for (const std::string& datagram : bad) refused += decode(datagram, detector) ? 0U : 1U;
+  });
+  EXPECT_EQ(allocated, 0U);
   EXPECT_EQ(read, good.size());
   EXPECT_EQ(refused, bad.size());
 }
