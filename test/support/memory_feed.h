@@ -9,6 +9,9 @@ namespace trk_bridge::test {
 
 class MemoryFeed {
  public:
+  /// A sender on the loopback.
+  static transport::Sender sender(std::uint32_t port) { return {transport::SenderKind::ipv4, {127, 0, 0, 1}, port}; }
+
   void put(const wire::Record& record, std::uint32_t port = 5000) {
     MemoryQueue::Entry entry;
     entry.reception.sample.record = record;
@@ -32,14 +35,6 @@ class MemoryFeed {
   std::unique_ptr<transport::Source> source() const { return std::make_unique<MemorySource>(queue_); }
 
  private:
-  static transport::Sender sender(std::uint32_t port) {
-    transport::Sender sender;
-    sender.kind = transport::SenderKind::ipv4;
-    sender.address = {127, 0, 0, 1};
-    sender.number = port;
-    return sender;
-  }
-
   std::shared_ptr<MemoryQueue> queue_ = std::make_shared<MemoryQueue>();
 };
 

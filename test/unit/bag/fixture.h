@@ -13,6 +13,7 @@
 #include <rosbag/view.h>
 
 #include "bag/convert.h"
+#include "error_of.h"
 #include "file/take.h"
 #include "temporary_directory.h"
 #include "trk_bridge/wire/codec.h"
@@ -78,14 +79,11 @@ class BagTest : public ::testing::Test {
     return file::read_take(directory / "back.trk");
   }
   std::string refusal(const std::string& bag, const BagToTakeOptions& options = {}) {
-    try {
-      take_of_bag(bag, directory / "refused.trk", options, run, err);
-    } catch (const std::runtime_error& error) {
-      EXPECT_FALSE(std::filesystem::exists(directory / "refused.trk"));
-      EXPECT_FALSE(std::filesystem::exists(directory / "refused.trk.part"));
-      return error.what();
-    }
-    return "no error";
+    const std::string take = directory / "refused.trk";
+    std::string error = test::error_of<std::runtime_error>([&] { take_of_bag(bag, take, options, run, err); });
+    EXPECT_FALSE(std::filesystem::exists(take));
+    EXPECT_FALSE(std::filesystem::exists(take + ".part"));
+    return error;
   }
 
   test::TemporaryDirectory directory;

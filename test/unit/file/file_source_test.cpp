@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "error_of.h"
 #include "file/scheme.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"
@@ -195,13 +196,8 @@ TEST_F(PlayFile, UnknownFormatBitsAreCounted) {
 }
 
 TEST_F(PlayFile, WhatCannotBePlayedIsRefusedAtOpening) {
-  const auto error_of = [](const SourceSettings& settings, double rate = 50.0) -> std::string {
-    try {
-      static_cast<void>(open_source(settings, rate));
-    } catch (const TransportError& error) {
-      return error.what();
-    }
-    return "no error";
+  const auto error_of = [](const SourceSettings& settings, double rate = 50.0) {
+    return test::error_of<TransportError>([&] { static_cast<void>(open_source(settings, rate)); });
   };
   auto empty = take_of(0);
   EXPECT_EQ(error_of(empty), "no error");

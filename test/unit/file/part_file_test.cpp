@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "error_of.h"
 #include "temporary_directory.h"
 #include "trk_bridge/transport/source.h"
 
@@ -25,12 +26,7 @@ class PartFileTest : public testing::Test {
     ASSERT_EQ(::write(file.fd(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
   }
   std::string opening_error(bool overwrite = false) const {
-    try {
-      const PartFile file(path, overwrite);
-    } catch (const TransportError& error) {
-      return error.what();
-    }
-    return "no error";
+    return test::error_of<TransportError>([&] { const PartFile file(path, overwrite); });
   }
 
   test::TemporaryDirectory directory;

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "error_of.h"
 #include "temporary_directory.h"
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/format.h"
@@ -25,12 +26,7 @@ const char* const head = "DMC01\n10:20:30:12:1\n1920 1080 14 2 12 4 27.0053 18.5
 const char* const line = "1 14.5 -4 15 158 -78 137 53.5 0.1 0.05 -0.001 -7e-06 16.5 8 1000\n";
 
 std::string error_of(const std::string& path) {
-  try {
-    static_cast<void>(read_take(path));
-  } catch (const TransportError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of<TransportError>([&] { static_cast<void>(read_take(path)); });
 }
 
 class ReadTake : public testing::Test {

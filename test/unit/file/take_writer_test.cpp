@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "error_of.h"
 #include "file/take.h"
 #include "temporary_directory.h"
 #include "trk_bridge/transport/source.h"
@@ -45,12 +46,7 @@ wire::CameraParams some_params(std::uint64_t counter) {
 class WriteTake : public testing::Test {
  protected:
   std::string opening_error(bool overwrite = false) {
-    try {
-      TakeWriter writer(path, code, overwrite);
-    } catch (const TransportError& error) {
-      return error.what();
-    }
-    return "no error";
+    return test::error_of<TransportError>([&] { const TakeWriter writer(path, code, overwrite); });
   }
 
   test::TemporaryDirectory directory;

@@ -21,15 +21,8 @@ class ModelTest : public testing::Test {
     transport::Sample sample;
     sample.record = record;
     sample.arrival = std::chrono::nanoseconds(at).count();
-    sample.sender = sender(port);
+    sample.sender = test::MemoryFeed::sender(port);
     model.add(sample, begin + at);
-  }
-  static transport::Sender sender(std::uint32_t port) {
-    transport::Sender from;
-    from.kind = transport::SenderKind::ipv4;
-    from.address = {127, 0, 0, 1};
-    from.number = port;
-    return from;
   }
   State state(milliseconds at) { return model.state(begin + at, *feed.source()); }
 
@@ -132,12 +125,12 @@ TEST_F(ModelTest, CamerasThatSendComeFirst) {
 TEST_F(ModelTest, RemembersTheLastMalformedRecord) {
   transport::Reception reception;
   reception.fault = wire::Fault{wire::Reason::not_a_number, 9, true};
-  reception.sample.sender = sender(6000);
+  reception.sample.sender = test::MemoryFeed::sender(6000);
   model.add_malformed(reception, begin);
   const auto s = state(milliseconds(1500));
   ASSERT_TRUE(s.malformed);
   EXPECT_EQ(s.malformed->fault.field(), 9);
-  EXPECT_EQ(s.malformed->sender, sender(6000));
+  EXPECT_EQ(s.malformed->sender, test::MemoryFeed::sender(6000));
   EXPECT_DOUBLE_EQ(s.malformed->age, 1.5);
 }
 

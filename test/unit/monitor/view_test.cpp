@@ -23,9 +23,7 @@ using testing::StartsWith;
 CameraState camera(std::uint32_t id) {
   CameraState state;
   state.key.id = id;
-  state.key.sender.kind = transport::SenderKind::ipv4;
-  state.key.sender.address = {192, 0, 2, 7};
-  state.key.sender.number = 50123;
+  state.key.sender = {transport::SenderKind::ipv4, {192, 0, 2, 7}, 50123};
   camera::Lens lens;
   lens.image_distance = 12.5;
   auto params = test::params(1234567, id);

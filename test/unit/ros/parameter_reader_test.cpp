@@ -1,4 +1,5 @@
 #include "ros/parameter_reader.h"
+#include "error_of.h"
 
 #include <cmath>
 
@@ -11,12 +12,7 @@ using ::testing::ElementsAre;
 using XmlRpc::XmlRpcValue;
 
 std::string end_of(ParameterReader& reader) {
-  try {
-    reader.finish();
-  } catch (const ParameterError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of<ParameterError>([&] { reader.finish(); });
 }
 
 tl::expected<std::size_t, std::string> parse_length(const std::string& text) {

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "error_of.h"
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/wire/format.h"
 
@@ -19,12 +20,7 @@ using ::testing::UnorderedElementsAre;
 using XmlRpc::XmlRpcValue;
 
 std::string message_of(const XmlRpcValue& tree) {
-  try {
-    read_ros_to_trk_parameters(tree, "crane1");
-  } catch (const ParameterError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of<ParameterError>([&] { read_ros_to_trk_parameters(tree, "crane1"); });
 }
 
 /// One for every fault.

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "error_of.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::ros1 {
@@ -18,12 +19,7 @@ using ::testing::UnorderedElementsAre;
 using XmlRpc::XmlRpcValue;
 
 std::string message_of(const XmlRpcValue& tree, const std::string& camera_name = "crane1") {
-  try {
-    read_trk_to_ros_parameters(tree, camera_name);
-  } catch (const ParameterError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of<ParameterError>([&] { read_trk_to_ros_parameters(tree, camera_name); });
 }
 
 /// One for every fault.

@@ -26,9 +26,7 @@ transport::Sample sample_of(const wire::Record& record) {
   transport::Sample sample;
   sample.record = record;
   sample.arrival = 1'700'000'000'123'456'789;
-  sample.sender.kind = transport::SenderKind::ipv4;
-  sample.sender.address = {192, 0, 2, 7};
-  sample.sender.number = 50123;
+  sample.sender = {transport::SenderKind::ipv4, {192, 0, 2, 7}, 50123};
   return sample;
 }
 

@@ -15,13 +15,7 @@ using transport::Sender;
 using transport::SenderKind;
 using Next = transport::Decoder::Next;
 
-Sender sender(std::uint32_t port) {
-  Sender s;
-  s.kind = SenderKind::ipv4;
-  s.address = {192, 0, 2, 7};
-  s.number = port;
-  return s;
-}
+Sender sender(std::uint32_t port) { return {SenderKind::ipv4, {192, 0, 2, 7}, port}; }
 
 constexpr wire::WireForm document{wire::Encoding::binary, {wire::Generation::document}};
 constexpr wire::WireForm identified{wire::Encoding::binary, {wire::Generation::identified}};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "error_of.h"
 #include "udp.h"
 
 namespace trk_bridge::trk {
@@ -28,12 +29,7 @@ std::string url_to(const PlainSocket& receiver, const std::string& options = "")
 }
 
 std::string open_error(const std::string& url) {
-  try {
-    (void)open_sink(url);
-  } catch (const TransportError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of<TransportError>([&] { (void)open_sink(url); });
 }
 
 bool is_constants(const std::string& datagram) { return datagram.size() > 6 && datagram[6] == 'C'; }

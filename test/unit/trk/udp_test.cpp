@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "error_of.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
@@ -34,12 +35,7 @@ std::int64_t realtime_now() {
 }
 
 std::string open_error(const std::string& url) {
-  try {
-    (void)open_source(url);
-  } catch (const TransportError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::error_of<TransportError>([&] { (void)open_source(url); });
 }
 
 void expect_gets(const std::string& url, const std::string& from, const std::string& to) {
