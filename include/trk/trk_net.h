@@ -28,11 +28,14 @@ TRK_PUBLIC trkError trkNetClose(trkHandle handle);
 TRK_PUBLIC trkError trkNetReadParams(trkHandle handle, trkCameraParams* params);
 
 /* Parameters whose counter is `numPassed` past that of the last ones, from those that have arrived (up to 16 are kept).
- * When they have not: the next ones after; the newest, when counting restarted or more than `numTolerated` sets
- * are in store beyond. Both numbers must not be negative. Does not wait. */
+ * When they have not: the next ones after. The newest instead when none were given before, the newest counter is more
+ * than `numTolerated` past the wanted one, all counters are below the wanted one, counting restarted, the counters kept
+ * do not ascend, or all 16 places are full. Both numbers must not be negative. Does not wait. Gives trkInvalidVersion
+ * as trkNetReadParams does. */
 TRK_PUBLIC trkError trkNetBufReadParams(trkHandle handle, trkCameraParams* params, int numPassed, int numTolerated);
 
-/* The last constants that arrived since the last call. Does not wait. */
+/* The last constants that arrived since the last call. Does not wait. May give the one trkInvalidVersion of a
+ * datagram that is not sound in the place of trkNetReadParams. */
 TRK_PUBLIC trkError trkNetReadConstants(trkHandle handle, trkCameraConstants* constants);
 
 #ifndef ONLY_READ

@@ -1,4 +1,4 @@
-// The two clocks that everything here reads.
+// The two clocks, in nanoseconds.
 #pragma once
 
 #include <chrono>

@@ -9,7 +9,8 @@ namespace trk_bridge::base {
 namespace {
 
 constexpr std::int64_t second = 1'000'000'000;
-constexpr std::int64_t latest = 0xFFFFFFFF;  // s, of ROS times
+constexpr std::int64_t latest = 0xFFFFFFFF;  // s, of ROS times: within 2106-02-07
+constexpr std::int64_t seconds_of_day = 86'400;
 constexpr std::size_t digits_of_fraction = 9;
 
 /// All of `digits`, a number from 0 to `most`.
@@ -67,10 +68,12 @@ std::optional<std::int64_t> day_from_text(std::string_view text) {
 }
 
 tl::expected<std::int64_t, std::string> parse_date(const std::string& text) {
-  const auto day = day_from_text(text);
-  if (!day) return tl::unexpected("\"" + text + "\" is no date: YYYY-MM-DD");
-  if (*day > latest) return tl::unexpected("\"" + text + "\": dates are 1970-01-01 to 2106-02-06");
-  return *day * second;
+  const auto midnight = day_from_text(text);
+  if (!midnight) return tl::unexpected("\"" + text + "\" is no date: YYYY-MM-DD");
+  // Of the last day ROS times have the beginning only.
+  if (*midnight + seconds_of_day - 1 > latest)
+    return tl::unexpected("\"" + text + "\": dates are 1970-01-01 to 2106-02-06");
+  return *midnight * second;
 }
 
 tl::expected<std::int64_t, std::string> parse_moment(const std::string& text) {
@@ -82,14 +85,14 @@ tl::expected<std::int64_t, std::string> parse_moment(const std::string& text) {
   } else {
     std::string_view clock = std::string_view(text).substr(t + 1);
     if (!clock.empty() && clock.back() == 'Z') clock.remove_suffix(1);
-    const auto date = parse_date(text.substr(0, t));
-    is_good = date && parse_clock(clock, moment);
-    if (is_good) moment += *date;
+    const auto midnight = day_from_text(std::string_view(text).substr(0, t));
+    is_good = midnight && *midnight <= latest && parse_clock(clock, moment);
+    if (is_good) moment += *midnight * second;
   }
-  if (!is_good || moment <= 0) {
+  if (!is_good || moment <= 0 || moment / second > latest) {
     return tl::unexpected("\"" + text +
                           "\" is no time: YYYY-MM-DDTHH:MM:SS in UTC, or seconds since 1970, with up to 9 decimals, "
-                          "after 1970-01-01 and before 2106");
+                          "after 1970-01-01T00:00:00 and up to 2106-02-07T06:28:15");
   }
   return moment;
 }

@@ -17,7 +17,8 @@ std::optional<std::int64_t> day_from_text(std::string_view text);
 tl::expected<std::int64_t, std::string> parse_date(const std::string& text);
 
 /// "2026-11-22T10:20:30.5" in UTC (a Z at the end is allowed), or seconds since 1970 ("1795342830.5"), to the
-/// nanosecond: ns since 1970, more than 0. The error says what is allowed.
+/// nanosecond: ns since 1970, more than 0 and within what ROS can represent (the second 2106-02-07T06:28:15 is the
+/// last). The error says what is allowed.
 tl::expected<std::int64_t, std::string> parse_moment(const std::string& text);
 
 /// "1700000000.123456789" of nanoseconds since 1970.

@@ -1,4 +1,4 @@
-// Parameters that have arrived and not been handed out (wire format, "Receiving with a buffer").
+// Parameters that have arrived and not been handed out, for trkNetBufReadParams (document, section 7.4).
 #pragma once
 
 #include <array>
@@ -16,12 +16,13 @@ class ParamsRing {
   static constexpr std::size_t capacity = 16;
 
   void push(const wire::CameraParams&) noexcept;
-  std::size_t size() const noexcept { return size_; }
 
   /// The newest, and none of what came before it. None when nothing has arrived since.
   std::optional<wire::CameraParams> pop_newest() noexcept;
-  /// The set `passed` counts after the one taken last, if there is one and at most `tolerated` are ahead of it;
-  /// both must not be negative.
+  /// The set `passed` counts after the one taken last, else the next one after it. The newest when the counter of the
+  /// newest is more than `tolerated` past the wanted one, no set has the wanted counter or a later one, nothing was
+  /// taken before, counting restarted, counters do not ascend, or the ring is full. None when nothing has arrived
+  /// since.
   std::optional<wire::CameraParams> pop_paced(std::uint64_t passed, std::uint64_t tolerated) noexcept;
 
  private:

@@ -1,4 +1,4 @@
-// The document's C structures <-> the records of the core. The C interface has no camera id.
+// The document's C structures <-> the records of `wire`. The C interface has no camera id.
 #pragma once
 
 #include <trk/trk_struct.h>

@@ -18,7 +18,7 @@ using shm::SlotProblem;
 
 std::atomic<unsigned> configured{trkMemDefault};
 
-/// A slot of the handle's own; the segment is found and kept by the transport.
+/// What a handle stands for.
 using Memory = Link;
 
 Link::Options options_for(int slot) {
@@ -101,10 +101,8 @@ trkError trkMemOpen(int slot, trkHandle* handle) {
 
 trkError trkMemClose(trkHandle handle) {
   return guarded([&] {
-    return handles<Memory>().close(handle, [](Memory& memory) {
-      memory.close();
-      return trkOK;
-    });
+    // It detaches when it is destroyed.
+    return handles<Memory>().close(handle, [](Memory&) { return trkOK; });
   });
 }
 

@@ -26,11 +26,11 @@ using transport::Url;
 /// Every scheme there is.
 constexpr std::array<const Scheme*, 3> schemes{&trk::udp_scheme, &shm::scheme, &file::scheme};
 
-std::string listed(std::string_view Scheme::*what) {
+std::string usages() {
   std::string text;
   for (std::size_t i = 0; i < schemes.size(); ++i) {
     text += i == 0 ? "" : i + 1 == schemes.size() ? " and " : ", ";
-    text += schemes[i]->*what;
+    text += schemes[i]->usage;
   }
   return text;
 }
@@ -47,18 +47,17 @@ tl::expected<Parsed, std::string> parsed(std::string_view text) {
       std::find_if(schemes.begin(), schemes.end(), [&](const Scheme* s) { return s->name == url->scheme; });
   if (scheme == schemes.end()) {
     const std::string given = url->scheme.empty() ? std::string("no scheme") : "scheme \"" + url->scheme + "\"";
-    return tl::make_unexpected(given + ": allowed are " + listed(&Scheme::usage));
+    return tl::make_unexpected(given + ": allowed are " + usages());
   }
   return Parsed{*std::move(url), *scheme};
 }
 
 tl::expected<std::uint32_t, std::string> format_from(std::string words) {
-  // Spaces are not at home in URLs.
+  // URLs have no spaces.
   std::replace_if(
       words.begin(), words.end(), [](char c) { return c == ',' || c == '+'; }, ' ');
   const auto format = wire::format_from_words(words);
   if (!format) return tl::make_unexpected(format.error());
-  if (const auto writable = wire::check_writable(*format); !writable) return tl::make_unexpected(writable.error());
   return *format;
 }
 

@@ -22,7 +22,7 @@ class PartFile {
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
-  /// Throws what the constructor throws because of the final name, for work that should not be done in vain.
+  /// Throws what the constructor would throw because of the final name, so that it is known before long work.
   static void check_target(const std::string& path, bool overwrite);
 
   bool is_open() const noexcept { return fd_ >= 0; }

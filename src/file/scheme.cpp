@@ -31,8 +31,11 @@ constexpr std::array<Option<SourceSettings>, 5> source_options{{
        s.time = v == "now" ? FileTime::now : FileTime::timecode;
        return v == "now" || v == "timecode";
      }},
-    {"date", "a day of the calendar from 1970 on as YYYY-MM-DD",
-     [](const std::string& v, SourceSettings& s) { return (s.date = base::day_from_text(v)).has_value(); }},
+    {"date", "a day from 1970-01-01 to 2249-12-31 as YYYY-MM-DD",
+     [](const std::string& v, SourceSettings& s) {
+       s.date = base::day_from_text(v);
+       return s.date && *s.date <= latest_date;
+     }},
 }};
 
 constexpr std::array<Option<SinkSettings>, 2> sink_options{{

@@ -19,6 +19,9 @@ enum class FileTime : std::uint8_t {
   now,       ///< the moment a sample is handed out
 };
 
+/// Midnight of 2249-12-31, seconds since 1970: nanoseconds since 1970 end in 2262, and a take goes on for a while.
+inline constexpr std::int64_t latest_date = 8'835'868'800;
+
 /// `file:PATH?rate=…&speed=…&loop=1&time=…&date=…`, to play a take.
 struct SourceSettings {
   std::string path;
@@ -26,7 +29,8 @@ struct SourceSettings {
   double speed = 1.0;          ///< 0.001 to 1000; 0: as fast as possible
   bool loop = false;
   FileTime time = FileTime::timecode;
-  std::optional<std::int64_t> date;  ///< midnight UTC, seconds since 1970; default the day of opening
+  std::optional<std::int64_t>
+      date;  ///< midnight UTC, seconds since 1970, at most latest_date; default the day of opening
 };
 
 /// `file:PATH?timecode=…&overwrite=1`, to record a take.

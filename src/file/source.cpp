@@ -17,6 +17,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 using transport::Deadline;
 using transport::Event;
+using transport::no_descriptor;
 using transport::Reception;
 using transport::Sample;
 using transport::SenderKind;
@@ -28,11 +29,7 @@ using transport::wait_readable;
 using transport::Wake;
 
 constexpr double highest_rate = 1e6;
-// Nanoseconds since 1970 end in 2262, and a take goes on for a while.
-constexpr std::int64_t latest_date = 8'836'000'000;  // s, in 2250
-constexpr long double century = 3.2e18L;             // ns
-// poll() passes over it: only time and stop() count.
-constexpr int no_descriptor = -1;
+constexpr long double century = 3.2e18L;  // ns
 constexpr nanoseconds one_day = std::chrono::hours(24);
 
 /// Midnight UTC of the day, nanoseconds since 1970.
@@ -153,7 +150,8 @@ std::unique_ptr<Source> open_source(const SourceSettings& settings, double field
     refuse("speed=" + std::to_string(settings.speed) + ": 0 (as fast as possible) or more");
   }
   if (settings.date && std::abs(*settings.date) > latest_date) {
-    refuse("date: " + std::to_string(*settings.date) + " s are out of reach; days up to the year 2250 are not");
+    refuse("date: " + std::to_string(*settings.date) +
+           " seconds since 1970 are after 2249-12-31, the last day allowed");
   }
   Take take = read_take(settings.path);
   if (const auto first = base::nanoseconds_of(take.time_code, rate, 0); !first && settings.time == FileTime::timecode) {

@@ -134,15 +134,15 @@ tl::expected<void, transport::SinkFault> TakeWriter::write(const wire::CameraCon
   if (constants_) {
     if (constants.id != constants_->id)
       return tl::unexpected(transport::SinkFault{transport::SinkReason::other_camera});
-    constants_count_ = *constants_ == constants;
-    if (!constants_count_) return tl::unexpected(transport::SinkFault{transport::SinkReason::constants_changed});
+    constants_hold_ = *constants_ == constants;
+    if (!constants_hold_) return tl::unexpected(transport::SinkFault{transport::SinkReason::constants_changed});
     return {};
   }
   const auto text = wire::to_text(constants, buffer_);
   if (!text) return encode_fault(text.error());
   if (auto written = append(*text); !written) return written;
   constants_ = constants;
-  constants_count_ = true;
+  constants_hold_ = true;
   return {};
 }
 
@@ -152,7 +152,7 @@ tl::expected<void, transport::SinkFault> TakeWriter::write(const wire::CameraPar
   const std::uint32_t any = constants_->id == 0 ? params.id : constants_->id;
   if (params.id != camera_.value_or(any))
     return tl::unexpected(transport::SinkFault{transport::SinkReason::other_camera});
-  if (!constants_count_) return tl::unexpected(transport::SinkFault{transport::SinkReason::constants_changed});
+  if (!constants_hold_) return tl::unexpected(transport::SinkFault{transport::SinkReason::constants_changed});
   const auto text = wire::to_text(params, buffer_);
   if (!text) return encode_fault(text.error());
   auto written = append(*text);

@@ -1,8 +1,6 @@
-// A take: the text file of one camera's parameters, one set a video field (wire format, "File").
+// A take: the text file of one camera's parameters, one set a video field (doc/wire_formats.md, "File").
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -63,7 +61,7 @@ class TakeWriter {
   std::int64_t size_ = 0;  // of the whole lines; what lies behind is what is left of a failed write
   std::optional<wire::CameraConstants> constants_;
   std::optional<std::uint32_t> camera_;  // of the parameters written
-  bool constants_count_ = false;         // no others have come since
+  bool constants_hold_ = false;          // no others have come since
   wire::Buffer buffer_{};
 };
 

@@ -79,8 +79,8 @@ tl::expected<void, SlotFault> Link::attach(const SegmentLayout* create, Clock::t
 
 void Link::begin_reading() noexcept {
   const bool restore = written_constants_ && segment_->writable() && !has_constants(*segment_);
-  // They went into a segment before, so this layout may only refuse their id, which to_image drops.
-  if (restore && !segment_->write(*written_constants_)) written_constants_.reset();
+  // They went into a segment before, and no layout refuses constants that another one can hold.
+  if (restore) static_cast<void>(segment_->write(*written_constants_));
   params_read_ = segment_->params_counter();
   constants_read_ = segment_->constants_counter();
   constants_unread_ = !restore && has_constants(*segment_);

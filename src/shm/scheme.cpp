@@ -1,6 +1,9 @@
 #include "scheme.h"
 
 #include <array>
+#include <string>
+
+#include "segment.h"
 
 namespace trk_bridge::shm {
 namespace {
@@ -24,8 +27,10 @@ template <typename Table, typename OtherTable>
 tl::expected<Settings, std::string> settings_of(const transport::Url& url, Direction direction, const Table& options,
                                                 const OtherTable& other_way) {
   Settings settings;
-  if (!transport::assign(transport::whole_number(url.place, 0, 61), settings.slot)) {
-    return tl::make_unexpected("slot = \"" + url.place + "\": allowed is a whole number from 0 to 61");
+  constexpr int last_slot = slot_count - 1;
+  if (!transport::assign(transport::whole_number(url.place, 0, last_slot), settings.slot)) {
+    return tl::make_unexpected("slot = \"" + url.place + "\": allowed is a whole number from 0 to " +
+                               std::to_string(last_slot));
   }
   const auto set = transport::set_options(url, direction, settings, transport::keys_of(other_way), options);
   if (!set) return tl::make_unexpected(set.error());

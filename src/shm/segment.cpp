@@ -133,8 +133,6 @@ bool is_dead(pid_t process) noexcept { return process > 0 && ::kill(process, 0) 
 
 }  // namespace
 
-const std::array<SegmentLayout, 4>& segment_layouts() noexcept { return layouts; }
-
 const SegmentLayout* layout_of_size(std::size_t size) noexcept {
   const auto found =
       std::find_if(layouts.begin(), layouts.end(), [&](const SegmentLayout& l) { return l.size == size; });

@@ -1,5 +1,5 @@
-// One shared memory segment of a slot (wire format, "Shared memory"): finding, making, reading, writing and removing
-// it.
+// One shared memory segment of a slot (doc/wire_formats.md, "Shared memory"): finding, making, reading, writing and
+// removing it.
 #pragma once
 
 #include <array>
@@ -32,8 +32,6 @@ struct SegmentLayout {
   std::array<std::size_t, 2> params, constants;
 };
 
-/// The layouts that a segment on this machine can have.
-const std::array<SegmentLayout, 4>& segment_layouts() noexcept;
 /// Null when no segment has this size.
 const SegmentLayout* layout_of_size(std::size_t) noexcept;
 /// Null when no segment on this machine has this record layout.
@@ -47,7 +45,7 @@ enum class SlotProblem : std::uint8_t {
   bad_slot,    ///< not 0..61
   no_file,     ///< nobody has opened the slot
   no_segment,  ///< the file is there, the segment is not
-  unfinished,  ///< a segment that is all zero: its maker is at it, or died
+  unfinished,  ///< a segment that is all zero: being created, or its creator died
   foreign,     ///< a segment under the slot's key that is not trk: `size`, and `magic` where the size was right
   not_a_file,  ///< something else has the slot file's name
   key_zero,    ///< ftok gives 0, which the kernel takes for "private"
@@ -117,7 +115,6 @@ class Segment {
   void close() noexcept;
 
   const SegmentLayout& layout() const noexcept { return *layout_; }
-  int slot() const noexcept { return slot_; }
   int id() const noexcept { return id_; }
   bool writable() const noexcept { return writable_; }
 

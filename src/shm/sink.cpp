@@ -1,6 +1,5 @@
 #include <cerrno>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "link.h"
@@ -30,8 +29,13 @@ Link::Options options_of(const Settings& settings) {
   return {settings.slot, layout, settings.mode, settings.recreate};
 }
 
-/// A segment that was removed or replaced is created again within the write that meets it; `gone` says that this
-/// failed.
+SinkFault fault_of(const SlotFault& fault) noexcept {
+  if (fault.problem == SlotProblem::system) return {SinkReason::system, {}, fault.error_number};
+  return {SinkReason::gone};
+}
+
+/// A segment that was removed or replaced is created again within the write that meets it; `gone` and `system` say that
+/// this failed.
 class ShmSink final : public transport::Sink {
  public:
   explicit ShmSink(const Settings& settings)
@@ -54,7 +58,7 @@ class ShmSink final : public transport::Sink {
   template <typename Record>
   Written write_record(const Record& record) {
     if (const auto kept = link_.keep_for_writing(Link::Clock::now()); !kept) {
-      return tl::make_unexpected(SinkFault{SinkReason::gone, {}, kept.error().error_number});
+      return tl::make_unexpected(fault_of(kept.error()));
     }
     if (!link_.segment()->writable()) return tl::make_unexpected(SinkFault{SinkReason::system, {}, EACCES});
     if (const auto written = link_.write(record); !written) {

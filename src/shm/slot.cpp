@@ -4,8 +4,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <string_view>
+#include <system_error>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -51,7 +51,7 @@ std::string describe_problem(const SlotFault& f) {
     case SlotProblem::exists:
       return "another program makes and removes the segment at the same time";
     case SlotProblem::system:
-      return std::strerror(f.error_number);
+      return std::generic_category().message(f.error_number);
   }
   return "unknown problem";
 }

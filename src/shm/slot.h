@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 
 #include <sys/ipc.h>
 #include <sys/shm.h>

@@ -4,8 +4,6 @@
 #include <memory>
 #include <string>
 
-#include <poll.h>
-
 #include "base/clock.h"
 #include "link.h"
 #include "scheme.h"
@@ -23,7 +21,7 @@ using transport::SourceState;
 // How late a record is seen at most. Nothing wakes a reader of shared memory, so it has to look.
 constexpr nanoseconds poll_period = std::chrono::microseconds(250);
 
-/// How it stands with the segment.
+/// Whether a segment is attached.
 struct Attachment {
   std::uint64_t attached = 0, overwritten = 0;
   bool absent = true;
@@ -56,7 +54,11 @@ class ShmSource final : public transport::CountedSource {
       const nanoseconds left = endless ? nanoseconds::max() : wait - (Clock::now() - begin);
       if (left <= nanoseconds::zero()) return Event::idle;
       const nanoseconds period = link_.segment() != nullptr ? poll_period : nanoseconds(Link::attach_period);
-      if (!pause(std::min(left, period))) return failed(errno);
+      // A stop is seen above.
+      const transport::Deadline next_look(std::min(left, period));
+      if (transport::wait_readable(transport::no_descriptor, stop_event(), next_look) == transport::Wake::failed) {
+        return failed(errno);
+      }
     }
   }
 
@@ -101,13 +103,6 @@ class ShmSource final : public transport::CountedSource {
       sample.record = params_;
     }
     return CountedSource::sample(sample);
-  }
-
-  bool pause(nanoseconds time) const {
-    const timespec timeout{static_cast<time_t>(time.count() / 1'000'000'000),
-                           static_cast<long>(time.count() % 1'000'000'000)};
-    pollfd stopped{stop_event().fd(), POLLIN, 0};
-    return ::ppoll(&stopped, 1, &timeout, nullptr) >= 0 || errno == EINTR;
   }
 
   void complete(transport::SourceStatistics& statistics) const override {

@@ -68,7 +68,7 @@ struct SendSettings {
   std::uint16_t port = 0;  ///< 1 to 65535
   /// An address of this machine or an interface's name, for groups. Empty: the system's choice.
   std::string interface;
-  std::optional<int> ttl;  ///< 0..255 (unicast and broadcast 1..255): how many routers it may pass, less one
+  std::optional<int> ttl;  ///< 0..255 (unicast and broadcast 1..255): it passes at most ttl - 1 routers
   /// Seconds to 86400 after which constants are sent again with the next parameters of their id; 0: never.
   double constants_period = 1.0;
 };
@@ -83,7 +83,7 @@ extern const std::array<Option<SendSettings>, 3> send_options;
 tl::expected<void, std::string> set_place(const Url& url, ReceiveSettings& settings);
 tl::expected<void, std::string> set_place(const Url& url, SendSettings& settings);
 
-/// Equal for two that only one of them could bind.
+/// Host and port; equal for two URLs that name the same.
 std::string place_of(const ReceiveSettings& settings);
 
 }  // namespace trk_bridge::transport

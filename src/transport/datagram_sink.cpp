@@ -42,7 +42,7 @@ Descriptor open_socket_to(const SocketAddress& target, const SendSettings& setti
   if (settings.interface.empty()) return socket;
   if (!group) {
     throw TransportError("interface = \"" + settings.interface +
-                         "\" is for multicast: to one address the system's routes lead");
+                         "\" is for multicast: for one address the system's routes decide");
   }
   send_through(fd, target.family(), find_interface(settings.interface));
   return socket;
@@ -102,7 +102,7 @@ class DatagramSink final : public Sink {
 Written DatagramSink::send_datagram(std::string_view datagram) noexcept {
   ssize_t written;
   do {
-    // The socket is not connected: a receiver that is not there is none of a later datagram's concern.
+    // Not connected, so that an unreachable receiver does not fail the next datagram.
     written = ::sendto(socket_.get(), datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL, target_.get(),
                        target_.length);
   } while (written < 0 && errno == EINTR);
@@ -136,7 +136,10 @@ Written DatagramSink::put(const wire::CameraParams& params) {
     }
   }
   const Written params_sent = send(params);
-  return params_sent ? constants_sent : params_sent;
+  if (!params_sent) return params_sent;
+  // The fault of the constants keeps write() from counting the parameters.
+  if (!constants_sent) count_params();
+  return constants_sent;
 }
 
 Written DatagramSink::put(const wire::CameraConstants& constants) {

@@ -1,6 +1,7 @@
 #include "datagram.h"
 
 #include <cerrno>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,10 @@ bool ends_source(int error) noexcept {
   return error == EBADF || error == ENOTSOCK || error == EFAULT || error == EINVAL;
 }
 
+// What is there already is read even when the time is up, but no more than this of it: datagrams that give nothing, as
+// those of refused senders, may come faster than they are read.
+constexpr std::uint64_t most_after_deadline = 4096;
+
 class DatagramSource final : public CountedSource {
  public:
   DatagramSource(std::unique_ptr<ReceiveSocket> socket, std::unique_ptr<Decoder> decoder)
@@ -23,20 +28,19 @@ class DatagramSource final : public CountedSource {
   Event receive(Reception& into, std::chrono::nanoseconds wait) override;
 
  private:
-  bool next_datagram(Reception& into, int& error) noexcept;
+  Event too_long(const ReceiveSocket::Datagram& datagram, Reception& into) noexcept;
   void complete(SourceStatistics& statistics) const override;
 
   std::unique_ptr<ReceiveSocket> socket_;
   std::unique_ptr<Decoder> decoder_;
   bool has_datagram_ = false;  // the decoder has
-  bool was_longer_ = false;    // than any datagram may be: it is not the decoder's
   Sender sender_;
   std::int64_t arrival_ = 0;
 };
 
 Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
   const Deadline deadline(wait);
-  for (;;) {
+  for (std::uint64_t rounds = 0;; ++rounds) {
     if (const Event end = final_event(); end != Event::sample) return end;
     while (has_datagram_) {
       into.sample.sender = sender_;
@@ -51,16 +55,25 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
           break;
       }
     }
+    if (rounds >= most_after_deadline && deadline.has_passed()) return Event::idle;
     int error = 0;
-    if (next_datagram(into, error)) {
-      if (was_longer_) return malformed();
+    if (const auto datagram = socket_->next(error)) {
+      if (!datagram->is_allowed) {
+        refused(datagram->sender);
+        continue;
+      }
+      if (datagram->was_longer) return too_long(*datagram, into);
+      sender_ = datagram->sender;
+      arrival_ = datagram->arrival;
+      has_datagram_ = true;
+      decoder_->begin(datagram->bytes, sender_);
       continue;
     }
     if (ends_source(error)) return failed(error);
     switch (wait_readable(socket_->fd(), stop_event(), deadline)) {
       case Wake::readable:
         // With no time to wait, what is there was asked for already.
-        if (!deadline.is_endless() && deadline.left() == std::chrono::nanoseconds::zero()) return Event::idle;
+        if (deadline.has_passed()) return Event::idle;
         break;
       case Wake::stopped:
         return Event::stopped;
@@ -72,28 +85,12 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
   }
 }
 
-/// The next datagram of a sender that is allowed.
-bool DatagramSource::next_datagram(Reception& into, int& error) noexcept {
-  for (;;) {
-    const auto datagram = socket_->next(error);
-    if (!datagram) return false;
-    if (!datagram->is_allowed) {
-      refused(datagram->sender);
-      continue;
-    }
-    sender_ = datagram->sender;
-    arrival_ = datagram->arrival;
-    was_longer_ = datagram->was_longer;
-    has_datagram_ = !was_longer_;
-    if (was_longer_) {
-      into.sample.sender = sender_;
-      into.sample.arrival = arrival_;
-      into.fault = wire::Fault{wire::Reason::too_long};
-    } else {
-      decoder_->begin(datagram->bytes, sender_);
-    }
-    return true;
-  }
+/// It is not the decoder's.
+Event DatagramSource::too_long(const ReceiveSocket::Datagram& datagram, Reception& into) noexcept {
+  into.sample.sender = datagram.sender;
+  into.sample.arrival = datagram.arrival;
+  into.fault = wire::Fault{wire::Reason::too_long};
+  return malformed();
 }
 
 void DatagramSource::complete(SourceStatistics& statistics) const {

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/clock.h"
 #include "socket.h"
 #include "trk_bridge/transport/source.h"
 
@@ -118,10 +119,6 @@ std::optional<std::uint32_t> dropped_by_kernel(int fd) noexcept {
   return info[SK_MEMINFO_DROPS];
 }
 
-std::int64_t nanoseconds_since_1970(const timespec& time) noexcept {
-  return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
-}
-
 }  // namespace
 
 ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings) {
@@ -161,14 +158,13 @@ int ReceiveSocket::fill() noexcept {
 
 std::int64_t ReceiveSocket::arrival(std::size_t i) noexcept {
   msghdr& header = headers_[i].msg_hdr;
-  timespec time{};
   for (cmsghdr* c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(&header, c)) {
     if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
+    timespec time{};
     std::memcpy(&time, CMSG_DATA(c), sizeof time);
-    return nanoseconds_since_1970(time);
+    return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
   }
-  ::clock_gettime(CLOCK_REALTIME, &time);
-  return nanoseconds_since_1970(time);
+  return base::wall_now();
 }
 
 bool ReceiveSocket::is_allowed(const Sender& sender) const noexcept {

@@ -6,6 +6,8 @@
 
 #include <arpa/inet.h>
 
+#include "wire/layout_words.h"
+
 namespace trk_bridge::transport {
 namespace {
 
@@ -22,12 +24,10 @@ std::string describe_wire(const Fault& fault) {
   return wire::describe(of_wire);
 }
 
-constexpr std::size_t generations = 2, abis = 3, orders = 2;
-
 constexpr std::size_t index_of(const wire::Layout& layout, bool guessed) noexcept {
   std::size_t index = static_cast<std::size_t>(layout.generation);
-  index = index * abis + static_cast<std::size_t>(layout.abi);
-  index = index * orders + static_cast<std::size_t>(layout.byte_order);
+  index = index * wire::abis.size() + static_cast<std::size_t>(layout.abi);
+  index = index * wire::byte_orders.size() + static_cast<std::size_t>(layout.byte_order);
   return index * 2 + (guessed ? 1 : 0);
 }
 
@@ -45,22 +45,23 @@ struct Text {
 constexpr Text text_of(const wire::Layout& layout, bool guessed) noexcept {
   Text text;
   text.add("binary ");
-  text.add(layout.generation == wire::Generation::document ? "document" : "identified");
-  text.add(layout.abi == wire::Abi::lp64 ? "_lp64" : layout.abi == wire::Abi::llp64 ? "_llp64" : "_i386");
+  text.add(name_of(wire::generations, layout.generation));
+  text.add("_");
+  text.add(name_of(wire::abis, layout.abi));
   if (layout.byte_order == wire::ByteOrder::big) text.add("_be");
   if (guessed) text.add(", layout guessed");
   return text;
 }
 
-using Texts = std::array<Text, generations * abis * orders * 2>;
+using Texts = std::array<Text, wire::generations.size() * wire::abis.size() * wire::byte_orders.size() * 2>;
 
 constexpr Texts all_texts() noexcept {
   Texts texts;
-  for (const auto generation : {wire::Generation::document, wire::Generation::identified}) {
-    for (const auto abi : {wire::Abi::lp64, wire::Abi::llp64, wire::Abi::i386}) {
-      for (const auto order : {wire::ByteOrder::little, wire::ByteOrder::big}) {
+  for (const auto& generation : wire::generations) {
+    for (const auto& abi : wire::abis) {
+      for (const auto& order : wire::byte_orders) {
         for (const bool guessed : {false, true}) {
-          const wire::Layout layout{generation, abi, order};
+          const wire::Layout layout{generation.value, abi.value, order.value};
           texts[index_of(layout, guessed)] = text_of(layout, guessed);
         }
       }

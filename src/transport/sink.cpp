@@ -26,7 +26,7 @@ std::string describe(const SinkFault& fault) {
     case SinkReason::system:
       return "the system refused: " + std::generic_category().message(fault.error_number);
     case SinkReason::gone:
-      return "the segment was removed; the next write creates it again";
+      return "there is no segment that can be written to; every write looks for one or creates it";
     case SinkReason::closed:
       return "the sink is closed";
   }

@@ -4,9 +4,8 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <ctime>
-#include <string>
+#include <system_error>
 
 #include <poll.h>
 #include <sys/eventfd.h>
@@ -26,7 +25,7 @@ constexpr nanoseconds longest_wait = std::chrono::hours(24 * 365 * 100);
 }  // namespace
 
 StopEvent::StopEvent() : fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  if (fd_ < 0) throw TransportError(std::string("no descriptor for waiting: ") + std::strerror(errno));
+  if (fd_ < 0) throw TransportError("no descriptor for waiting: " + std::generic_category().message(errno));
 }
 
 StopEvent::~StopEvent() { ::close(fd_); }

@@ -34,6 +34,7 @@ class Deadline {
   bool is_endless() const noexcept { return endless_; }
   /// Not below zero.
   std::chrono::nanoseconds left() const noexcept;
+  bool has_passed() const noexcept { return !endless_ && left() == std::chrono::nanoseconds::zero(); }
 
  private:
   bool endless_;
@@ -42,8 +43,10 @@ class Deadline {
 
 enum class Wake { readable, stopped, timeout, failed };
 
-/// `readable` also when the descriptor has an error to report; `failed` leaves the reason in errno. A negative `fd` is
-/// never readable: then only time and stop count.
+/// For wait_readable(): never readable, so that only time and stop count.
+inline constexpr int no_descriptor = -1;
+
+/// `readable` also when the descriptor has an error to report; `failed` leaves the reason in errno.
 [[nodiscard]] Wake wait_readable(int fd, const StopEvent& stop, const Deadline& deadline) noexcept;
 
 }  // namespace trk_bridge::transport

@@ -2,22 +2,12 @@
 
 #include <array>
 
+#include "layout_words.h"
 #include "shape.h"
 
 namespace trk_bridge::wire {
 
 namespace {
-
-template <class T>
-struct Named {
-  std::string_view name;
-  T value;
-};
-
-constexpr std::array<Named<Generation>, 2> generations{
-    {{"document", Generation::document}, {"identified", Generation::identified}}};
-constexpr std::array<Named<Abi>, 3> abis{{{"lp64", Abi::lp64}, {"llp64", Abi::llp64}, {"i386", Abi::i386}}};
-constexpr std::array<Named<ByteOrder>, 2> byte_orders{{{"le", ByteOrder::little}, {"be", ByteOrder::big}}};
 
 template <class T, std::size_t n>
 std::optional<T> find(const std::array<Named<T>, n>& all, std::string_view name) {
@@ -25,14 +15,6 @@ std::optional<T> find(const std::array<Named<T>, n>& all, std::string_view name)
     if (one.name == name) return one.value;
   }
   return std::nullopt;
-}
-
-template <class T, std::size_t n>
-std::string_view name_of(const std::array<Named<T>, n>& all, T value) {
-  for (const Named<T>& one : all) {
-    if (one.value == value) return one.name;
-  }
-  return "?";
 }
 
 /// What stands before the next '_', which is taken off the front of `text` with it.
@@ -54,7 +36,7 @@ std::string describe(Layout layout) {
          (layout.byte_order == ByteOrder::little ? " little-endian" : " big-endian");
 }
 
-tl::expected<LayoutChoice, std::string> layout_choice_from_word(std::string_view word) {
+std::optional<LayoutChoice> layout_choice_from_word(std::string_view word) {
   LayoutChoice choice;
   if (word == "auto") return choice;
   std::string_view rest = word;
@@ -69,9 +51,7 @@ tl::expected<LayoutChoice, std::string> layout_choice_from_word(std::string_view
     known = choice.byte_order.has_value();
   }
   if (known && word.back() != '_') return choice;
-  return tl::unexpected("'" + std::string(word) +
-                        "' is no layout; allowed are auto, document and identified, the latter two optionally followed "
-                        "by _lp64, _llp64 or _i386 and that by _le or _be");
+  return std::nullopt;
 }
 
 Layout resolve(const LayoutChoice& choice, Layout fallback) noexcept {

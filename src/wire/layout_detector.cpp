@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "layout_words.h"
 #include "rigid.h"
 #include "shape.h"
 #include "trk_bridge/wire/fields.h"
@@ -12,10 +13,6 @@
 namespace trk_bridge::wire {
 
 namespace {
-
-constexpr std::array generations{Generation::document, Generation::identified};
-constexpr std::array abis{Abi::lp64, Abi::llp64, Abi::i386};
-constexpr std::array byte_orders{ByteOrder::little, ByteOrder::big};
 
 /// Ids, masks with bits yet to come and picture sizes are below this.
 constexpr std::uint32_t small_number = 0x10000;
@@ -37,11 +34,11 @@ struct Candidates {
 template <class Size>
 Candidates candidates_for(std::size_t size, const LayoutChoice& given, Size size_of) noexcept {
   Candidates found;
-  for (const Generation generation : generations) {
-    for (const ByteOrder byte_order : byte_orders) {
+  for (const auto& generation : generations) {
+    for (const auto& byte_order : byte_orders) {
       bool taken = false;
-      for (const Abi abi : abis) {
-        const Layout layout{generation, abi, byte_order};
+      for (const auto& abi : abis) {
+        const Layout layout{generation.value, abi.value, byte_order.value};
         if (size_of(layout) != size) continue;
         found.size_known = true;
         if (taken || resolve(given, layout) != layout) continue;

@@ -1,4 +1,4 @@
-// Sizes and offsets of the binary records (wire format, "Binary payload"), and their numbers in either byte order.
+// Sizes and offsets of the binary records (doc/wire_formats.md, "Binary"), and their numbers in either byte order.
 #pragma once
 
 #include <cstddef>

@@ -30,14 +30,14 @@ inline bool all_finite(const wire::CameraConstants& c) {
   return sum == 0;
 }
 
-/// `record` written in `form` and read again with that layout said; nothing when either fails.
+/// `record` written in `form` and read again with that layout given; nothing when either fails.
 template <class Record>
 std::optional<Record> there_and_back(const Record& record, wire::WireForm form) {
   wire::Buffer buffer;
   const auto bytes = wire::encode(record, form, buffer);
   if (!bytes) return std::nullopt;
-  wire::LayoutDetector said({form.layout.generation, form.layout.abi, form.layout.byte_order});
-  const auto read = wire::decode(*bytes, said);
+  wire::LayoutDetector given({form.layout.generation, form.layout.abi, form.layout.byte_order});
+  const auto read = wire::decode(*bytes, given);
   if (!read || !std::holds_alternative<Record>(read->record)) return std::nullopt;
   return std::get<Record>(read->record);
 }

@@ -60,7 +60,7 @@ class MemorySource final : public transport::CountedSource {
   explicit MemorySource(std::shared_ptr<MemoryQueue> queue) : CountedSource("memory"), queue_(std::move(queue)) {}
 
   transport::Event receive(transport::Reception& into, std::chrono::nanoseconds wait) override {
-    const transport::Deadline deadline(wait);
+    const transport::Deadline until(wait);
     for (;;) {
       if (const auto end = final_event(); end != transport::Event::sample) return end;
       if (const auto entry = queue_->pop()) {
@@ -76,7 +76,7 @@ class MemorySource final : public transport::CountedSource {
             return sample(into.sample);
         }
       }
-      switch (transport::wait_readable(queue_->fd(), stop_event(), deadline)) {
+      switch (transport::wait_readable(queue_->fd(), stop_event(), until)) {
         case transport::Wake::readable:
           break;
         case transport::Wake::stopped:

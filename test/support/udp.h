@@ -93,7 +93,7 @@ class PlainSocket {
   int fd_;
 };
 
-/// The port that the name of a UDP source tells.
+/// The port in the name of a UDP source.
 inline std::uint16_t udp_port_in(const std::string& name) {
   const std::string before = "udp port ";
   if (name.compare(0, before.size(), before) != 0) throw std::runtime_error("no port in \"" + name + "\"");

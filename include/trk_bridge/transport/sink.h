@@ -19,7 +19,7 @@ enum class SinkReason : std::uint8_t {
   constants_changed,  ///< a file holds one set of constants: others came, or parameters that belong to them
   other_camera,       ///< a file holds one camera: the id is not that of its constants
   system,             ///< the kernel refused: `error_number`
-  gone,               ///< the segment was removed; the sink tries to create it again at the next write
+  gone,               ///< no segment can be written to: every write looks for one, or creates it
   closed,             ///< close() was called before
 };
 
@@ -27,7 +27,7 @@ enum class SinkReason : std::uint8_t {
 struct SinkFault {
   SinkReason reason{};
   Fault fault{};         ///< counts with not_encodable
-  int error_number = 0;  ///< counts with system and gone
+  int error_number = 0;  ///< counts with system
 };
 bool operator==(const SinkFault&, const SinkFault&) noexcept;
 bool operator<(const SinkFault&, const SinkFault&) noexcept;
@@ -71,6 +71,8 @@ class Sink {
   Sink() = default;
   /// Counts constants that were repeated.
   void count_constants() noexcept { ++counts_.constants; }
+  /// Counts parameters that went out though put() gives a fault.
+  void count_params() noexcept { ++counts_.params; }
 
  private:
   virtual Written put(const wire::CameraParams&) = 0;

@@ -3,10 +3,8 @@
 
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
 #include "trk_bridge/transport/sample.h"
 

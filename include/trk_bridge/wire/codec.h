@@ -45,8 +45,8 @@ struct Decoded {
 [[nodiscard]] tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutDetector& detector) noexcept;
 
 /// One whole datagram into `buffer`; the view covers its bytes. ASCII ends in its NUL. A number that is not finite is
-/// refused (not_finite), as is a counter or id that the layout cannot hold (out_of_range; an id other than 0 in the
-/// document's generation is dropped, for it has no place there).
+/// refused (not_finite), as is a counter that the layout cannot hold (out_of_range). The id is dropped in the
+/// document's generation, which has no place for it.
 [[nodiscard]] tl::expected<std::string_view, Fault> encode(const CameraParams&, WireForm, Buffer& buffer) noexcept;
 [[nodiscard]] tl::expected<std::string_view, Fault> encode(const CameraConstants&, WireForm, Buffer& buffer) noexcept;
 

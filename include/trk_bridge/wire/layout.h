@@ -1,4 +1,4 @@
-// Where the fields of a binary record lie: the memory image of the sender's struct (wire format, "Binary payload").
+// Where the fields of a binary record lie: the memory image of the sender's struct (doc/wire_formats.md, "Binary").
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include <tl/expected.hpp>
 
 namespace trk_bridge::wire {
 
@@ -48,8 +46,8 @@ struct LayoutChoice {
 };
 
 /// `auto`, `document` or `identified`, the latter two optionally followed by `_lp64`, `_llp64` or `_i386` and that by
-/// `_be` or `_le`. The error lists what is allowed.
-tl::expected<LayoutChoice, std::string> layout_choice_from_word(std::string_view);
+/// `_be` or `_le`. None for other words.
+std::optional<LayoutChoice> layout_choice_from_word(std::string_view);
 
 /// The layout to write: what the user gave in `choice`, and what `fallback` has for the rest.
 Layout resolve(const LayoutChoice& choice, Layout fallback) noexcept;
@@ -93,8 +91,6 @@ class LayoutDetector {
   LayoutDetector() = default;
   explicit LayoutDetector(const LayoutChoice& given) : given_(given) {}
 
-  /// What the user gave.
-  const LayoutChoice& given() const noexcept { return given_; }
   /// The layout of the last good binary record; none before one.
   std::optional<Layout> seen() const noexcept { return seen_; }
 

@@ -22,7 +22,11 @@ TEST(TimeText, IsExactOnBothSidesOf1970) {
 
 TEST(Days, EndWhereRosDoes) {
   EXPECT_EQ(parse_date("2106-02-06"), 4'294'857'600'000'000'000);
-  EXPECT_THAT(parse_date("2106-02-08").error(), HasSubstr("to 2106-02-06"));
+  for (const char* day : {"2106-02-07", "2106-02-08"}) {
+    const auto date = parse_date(day);
+    ASSERT_FALSE(date) << day;
+    EXPECT_THAT(date.error(), AllOf(HasSubstr(day), HasSubstr("to 2106-02-06")));
+  }
   EXPECT_THAT(parse_date("2023-02-29").error(), AllOf(HasSubstr("\"2023-02-29\""), HasSubstr("YYYY-MM-DD")));
   EXPECT_EQ(day_from_text("2024-02-29"), 1709164800) << "date -u -d 2024-02-29 +%s";
   EXPECT_TRUE(day_from_text("9999-12-31")) << "beyond ROS, the calendar goes on";
@@ -35,6 +39,17 @@ TEST(Moments, AreReadToTheNanosecond) {
   EXPECT_EQ(parse_moment("5"), 5'000'000'000);
   EXPECT_EQ(parse_moment("2026-11-22T10:20:30.5Z"), 1'795'305'600'000'000'000 + 37'230'500'000'000);
   EXPECT_EQ(parse_moment("2026-11-22T10:20:30"), 1'795'305'600'000'000'000 + 37'230'000'000'000);
+}
+
+TEST(Moments, EndWhereRosDoes) {
+  constexpr std::int64_t last = 4'294'967'295'999'999'999;
+  EXPECT_EQ(parse_moment("2106-02-07T06:28:15.999999999"), last);
+  EXPECT_EQ(parse_moment("4294967295.999999999"), last);
+  for (const char* text : {"2106-02-07T06:28:16", "2106-02-08T00:00:00", "9999-12-31T00:00:00", "4294967296"}) {
+    const auto moment = parse_moment(text);
+    ASSERT_FALSE(moment) << text;
+    EXPECT_THAT(moment.error(), AllOf(HasSubstr(text), HasSubstr("up to 2106-02-07T06:28:15")));
+  }
 }
 
 TEST(Moments, AreRefusedWhenTheyAreNone) {

@@ -1,4 +1,4 @@
-# Installs to an empty place and builds a C program with what pkg-config tells of it, as a user does.
+# Installs to an empty place and builds a C program with what pkg-config says of it, as a user does.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)

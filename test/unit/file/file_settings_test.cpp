@@ -3,11 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "trk_bridge/endpoints/endpoints.h"
+#include "url_errors.h"
 
 namespace trk_bridge::file {
 namespace {
 
+using test::read_error;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -20,11 +21,6 @@ SinkSettings file_out(const std::string& url) {
   const auto settings = sink_settings(transport::split_url(url).value());
   if (!settings) ADD_FAILURE() << settings.error();
   return settings.value_or(SinkSettings{});
-}
-
-std::string read_error(const std::string& url) {
-  const auto endpoint = endpoints::parse_source(url);
-  return endpoint ? "no error" : endpoint.error();
 }
 
 TEST(FileSettings, FilePaths) {
@@ -58,6 +54,14 @@ TEST(FileSettings, FileReadingOptions) {
 TEST(FileSettings, DatesThatTheCalendarDoesNotHave) {
   for (const char* date : {"2023-02-29", "2024-13-01", "2024-00-10", "2024-04-31", "24-04-30", "2024/04/30", "today"}) {
     EXPECT_THAT(read_error(std::string("file:a?date=") + date), AllOf(HasSubstr(date), HasSubstr("YYYY-MM-DD")));
+  }
+}
+
+TEST(FileSettings, DatesEndWhereATakeCanStillBePlayed) {
+  EXPECT_EQ(file_in("file:a?date=2249-12-31").date, 8'835'868'800) << "date -u -d 2249-12-31 +%s";
+  for (const char* date : {"2250-01-01", "9999-12-31"}) {
+    EXPECT_THAT(read_error(std::string("file:a?date=") + date),
+                AllOf(HasSubstr(date), HasSubstr("1970-01-01 to 2249-12-31")));
   }
 }
 

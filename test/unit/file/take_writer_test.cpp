@@ -255,13 +255,9 @@ TEST_F(WriteTake, AFullDiskCostsOnlyTheLineThatDidNotFit) {
 
 TEST_F(WriteTake, AnUnwritablePlaceSaysWhich) {
   const std::string nowhere = directory / "absent/take.trk";
-  try {
-    TakeWriter writer(nowhere, code, false);
-    FAIL() << "opened";
-  } catch (const TransportError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(nowhere));
-    EXPECT_THAT(error.what(), HasSubstr("No such file or directory"));
-  }
+  const std::string error = test::error_of<TransportError>([&] { TakeWriter(nowhere, code, false); });
+  EXPECT_THAT(error, HasSubstr(nowhere));
+  EXPECT_THAT(error, HasSubstr("No such file or directory"));
   EXPECT_THROW(TakeWriter(directory.path(), code, true), TransportError);
   EXPECT_THROW(TakeWriter("", code, true), TransportError);
 }

@@ -1,11 +1,14 @@
-// What is not ours, or cannot be told apart, is left exactly as it was, and said.
+// What is not ours, or cannot be told apart, is left exactly as it was, and reported.
+#include <cerrno>
 #include <cstring>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
+#include "error_of.h"
 #include "free_slot.h"
 #include "shm/segment.h"
 #include "trk_bridge/endpoints/endpoints.h"
@@ -21,6 +24,7 @@ using endpoints::open_source;
 using ::testing::HasSubstr;
 using transport::Event;
 using transport::Reception;
+using transport::SinkReason;
 using transport::SourceState;
 using transport::TransportError;
 
@@ -37,12 +41,7 @@ std::size_t attachments(int id) {
 }
 
 std::string refusal(const std::string& url) {
-  try {
-    open_sink(url);
-  } catch (const TransportError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::error_of<TransportError>([&] { static_cast<void>(open_sink(url)); });
 }
 
 class Foreign : public ::testing::TestWithParam<std::size_t> {
@@ -112,12 +111,12 @@ TEST_F(Confused, two_slots_with_one_key_are_told_apart_from_one) {
   const auto sink = open_sink("shm:" + std::to_string(other.number()));
   // A hard link has the inode of its original, as two inodes that agree in their lower 16 bits have one key.
   ASSERT_EQ(::link(other.path().c_str(), slot.path().c_str()), 0);
-  const auto told = "has the same key as slot " + std::to_string(other.number());
-  EXPECT_THAT(refusal(url), HasSubstr(told));
+  const auto fault = "has the same key as slot " + std::to_string(other.number());
+  EXPECT_THAT(refusal(url), HasSubstr(fault));
   const auto source = open_source(url);
   Reception into;
   EXPECT_EQ(source->receive(into, 0s), Event::idle);
-  EXPECT_THAT(source->statistics().waiting_for, HasSubstr(told));
+  EXPECT_THAT(source->statistics().waiting_for, HasSubstr(fault));
   EXPECT_EQ(attachments(other.segment()), 1U);
   ::unlink(slot.path().c_str());
 }
@@ -126,6 +125,34 @@ TEST_F(Confused, a_directory_in_the_place_of_the_file_is_refused) {
   ASSERT_EQ(::mkdir(slot.path().c_str(), 0700), 0);
   EXPECT_THAT(refusal(url), HasSubstr("is not a regular file"));
   ::rmdir(slot.path().c_str());
+}
+
+TEST_F(Confused, a_sink_whose_slot_became_foreign_says_that_there_is_no_segment_for_it) {
+  const auto sink = open_sink(url);
+  slot.remove();
+  const int id = slot.make_segment(300);
+  const auto written = sink->write(wire::CameraParams{});
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().reason, SinkReason::gone);
+  EXPECT_THAT(describe(written.error()), HasSubstr("there is no segment that can be written to"));
+  EXPECT_EQ(contents(id, 300), std::string(300, '\0'));
+  slot.remove();
+  EXPECT_TRUE(sink->write(wire::CameraParams{})) << "every write looks again";
+}
+
+TEST_F(Confused, a_sink_says_why_the_system_gives_it_no_segment) {
+  const auto sink = open_sink(url);
+  slot.remove();
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{0, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  const auto written = sink->write(wire::CameraParams{});
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().reason, SinkReason::system);
+  EXPECT_EQ(written.error().error_number, EMFILE) << "the slot's file could not be made";
+  EXPECT_TRUE(sink->write(wire::CameraParams{})) << "every write looks again";
 }
 
 TEST(ShmFaults, key_zero_is_explained) {

@@ -32,7 +32,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto deadline = 40s;
 
-/// Every field tells the counter, so that a mix of two records is known at sight.
+/// Every field shows the counter, so that a mix of two records is known at sight.
 wire::CameraParams params(std::uint64_t counter) {
   const auto n = static_cast<double>(counter);
   wire::CameraParams p;

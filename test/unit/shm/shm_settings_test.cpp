@@ -3,11 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "trk_bridge/endpoints/endpoints.h"
+#include "url_errors.h"
 
 namespace trk_bridge::shm {
 namespace {
 
+using test::read_error;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -20,11 +21,6 @@ Settings shm_out(const std::string& url) {
   const auto settings = sink_settings(transport::split_url(url).value());
   if (!settings) ADD_FAILURE() << settings.error();
   return settings.value_or(Settings{});
-}
-
-std::string read_error(const std::string& url) {
-  const auto endpoint = endpoints::parse_source(url);
-  return endpoint ? "no error" : endpoint.error();
 }
 
 TEST(ShmSettings, SharedMemory) {

@@ -141,7 +141,7 @@ TEST_F(DatagramSinkTest, OtherConstantsThatWereNotSentDoNotWaitForThePeriodOfThe
   EXPECT_EQ(next(), "params");
 }
 
-TEST_F(DatagramSinkTest, ARepetitionThatFailsIsToldThoughTheParametersWentOut) {
+TEST_F(DatagramSinkTest, AFailedRepetitionIsReportedThoughTheParametersWentOut) {
   const auto sink = open(1e-9);
   ASSERT_TRUE(sink->write(test::constants()));
   EXPECT_EQ(next(), "constants");
@@ -151,6 +151,8 @@ TEST_F(DatagramSinkTest, ARepetitionThatFailsIsToldThoughTheParametersWentOut) {
   EXPECT_EQ(written.error().error_number, EMSGSIZE);
   EXPECT_EQ(next(), "params");
   EXPECT_EQ(sink->statistics().constants, 1u);
+  EXPECT_EQ(sink->statistics().params, 1u);
+  EXPECT_EQ(sink->statistics().errors, 1u);
 }
 
 TEST_F(DatagramSinkTest, WithoutAPeriodConstantsGoOutWhenTheyAreWrittenOnly) {

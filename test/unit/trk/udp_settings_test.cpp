@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "trk_bridge/endpoints/endpoints.h"
+#include "url_errors.h"
 
 namespace trk_bridge::trk {
 namespace {
 
+using test::read_error;
+using test::write_error;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -21,15 +23,6 @@ UdpSinkSettings udp_out(const std::string& url) {
   const auto settings = udp_sink_settings(transport::split_url(url).value());
   if (!settings) ADD_FAILURE() << settings.error();
   return settings.value_or(UdpSinkSettings{});
-}
-
-std::string read_error(const std::string& url) {
-  const auto endpoint = endpoints::parse_source(url);
-  return endpoint ? "no error" : endpoint.error();
-}
-std::string write_error(const std::string& url) {
-  const auto endpoint = endpoints::parse_sink(url);
-  return endpoint ? "no error" : endpoint.error();
 }
 
 TEST(UdpSettings, UdpHostsAndPorts) {

@@ -205,7 +205,7 @@ TEST(UdpSource, OneBadDatagramCostsThatDatagram) {
       ASSERT_TRUE(event == Event::sample || event == Event::malformed);
       ++events;
       const std::uint8_t last_byte = reception.sample.sender.address[3];
-      ASSERT_TRUE(last_byte == 2 || last_byte == 3) << "a malformed one tells its sender, too";
+      ASSERT_TRUE(last_byte == 2 || last_byte == 3) << "a malformed one has its sender, too";
       if (last_byte == 2) {
         ASSERT_EQ(event, Event::sample);
         ASSERT_EQ(std::get<wire::CameraParams>(reception.sample.record), test::params(i));

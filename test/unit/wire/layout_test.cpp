@@ -5,8 +5,6 @@
 namespace trk_bridge::wire {
 namespace {
 
-using testing::HasSubstr;
-
 TEST(Layout, SizesAreThoseOfTheWireFormat) {
   for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
     for (const Abi abi : {Abi::lp64, Abi::llp64}) {
@@ -51,14 +49,11 @@ TEST(LayoutChoice, Words) {
   EXPECT_EQ(layout_choice_from_word("identified_lp64_le")->byte_order, ByteOrder::little);
 }
 
-TEST(LayoutChoice, OtherWordsAreRefusedWithThoseAllowed) {
+TEST(LayoutChoice, OtherWordsAreRefused) {
   for (const char* const word :
        {"", "_", "lp64", "auto_lp64", "Document", "document_", "document_lp", "document_le", "document_lp64_",
         "document_lp64_xe", "document_lp64_le_", "identified_lp64_le_be", " document", "identified lp64"}) {
-    const auto choice = layout_choice_from_word(word);
-    ASSERT_FALSE(choice) << word;
-    EXPECT_THAT(choice.error(), HasSubstr("'" + std::string(word) + "'"));
-    EXPECT_THAT(choice.error(), HasSubstr("_llp64"));
+    EXPECT_FALSE(layout_choice_from_word(word)) << word;
   }
 }
 

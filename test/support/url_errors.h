@@ -1,0 +1,22 @@
+// What is wrong with an endpoint's URL.
+#pragma once
+
+#include <string>
+
+#include "trk_bridge/endpoints/endpoints.h"
+
+namespace trk_bridge::test {
+
+/// Why the URL names no source; "no error" if it names one.
+inline std::string read_error(const std::string& url) {
+  const auto endpoint = endpoints::parse_source(url);
+  return endpoint ? "no error" : endpoint.error();
+}
+
+/// Why the URL names no sink; "no error" if it names one.
+inline std::string write_error(const std::string& url) {
+  const auto endpoint = endpoints::parse_sink(url);
+  return endpoint ? "no error" : endpoint.error();
+}
+
+}  // namespace trk_bridge::test
