@@ -38,11 +38,11 @@ std::optional<InfoReason> fault_of(const CameraInfo& info) noexcept {
 std::string describe(const InfoFault& fault) {
   switch (fault.reason) {
     case InfoReason::no_size:
-      return "width and height must be more than 0";
+      return "width and height must be from 1 to 2147483647";
     case InfoReason::unknown_model:
       return "distortion_model must be plumb_bob or rational_polynomial";
     case InfoReason::coefficients:
-      return "D must have 4 or 5 coefficients with plumb_bob, 8 with rational_polynomial";
+      return "D must have 0, 4 or 5 coefficients with plumb_bob, 8 with rational_polynomial";
     case InfoReason::no_lens:
       return camera::describe(fault.camera);
   }

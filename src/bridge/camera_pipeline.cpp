@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <variant>
 
 namespace trk_bridge::bridge {
 namespace {
@@ -25,8 +26,8 @@ CameraPipeline::CameraPipeline(const CameraOptions& options, double field_rate)
 bool CameraPipeline::wants(const wire::Record& record) const noexcept {
   if (!options_.id) return true;
   if (const auto* params = std::get_if<wire::CameraParams>(&record)) return params->id == *options_.id;
-  const auto* constants = std::get_if<wire::CameraConstants>(&record);
-  return constants != nullptr && (constants->id == *options_.id || constants->id == 0);
+  const auto& constants = *std::get_if<wire::CameraConstants>(&record);
+  return constants.id == *options_.id || constants.id == 0;
 }
 
 CameraUpdate CameraPipeline::initial() const noexcept {
@@ -36,11 +37,9 @@ CameraUpdate CameraPipeline::initial() const noexcept {
 }
 
 CameraUpdate CameraPipeline::process(const transport::Sample& sample, std::int64_t now) noexcept {
+  // std::visit would do, but can throw as far as a compiler knows.
   if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) return process(*params, sample, now);
-  if (const auto* constants = std::get_if<wire::CameraConstants>(&sample.record)) {
-    return process(*constants, sample.arrival);
-  }
-  return {};
+  return process(*std::get_if<wire::CameraConstants>(&sample.record), sample.arrival);
 }
 
 CameraUpdate CameraPipeline::process(const wire::CameraConstants& constants, std::int64_t arrival) noexcept {
@@ -70,10 +69,7 @@ CameraUpdate CameraPipeline::process(const wire::CameraParams& params, const tra
   if (!sample.has_lens) ++statistics_.without_lens;
 
   const camera::Converted converted = converter_.convert(params);
-  if (!converted.pose) return drop(converted.pose.error());
-  if (sample.has_lens && !converted.lens && converted.lens.error() == CameraReason::not_finite) {
-    return drop(converted.lens.error());
-  }
+  if (const auto reason = camera::why_no_camera(converted, sample.has_lens)) return drop(*reason);
   const auto stamped = stamp(sample.arrival);
   if (!stamped) return {};
 
@@ -93,11 +89,11 @@ bool CameraPipeline::is_new(const wire::CameraParams& params, const transport::S
   ++statistics_.params;
   statistics_.last_id = params.id;
   statistics_.last_format = params.format;
-  const bool counts = !sample.has_counter || base::is_new(sequence_.judge(params.counter));
+  const bool accepted = !sample.has_counter || base::is_new(sequence_.judge(params.counter));
   if (!sample.has_counter) ++statistics_.without_counter;
   statistics_.sequence = sequence_.counts();
   statistics_.sequence.accepted += statistics_.without_counter;
-  return counts;
+  return accepted;
 }
 
 std::optional<std::int64_t> CameraPipeline::stamp(std::int64_t arrival) noexcept {

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "camera_options.h"
+#include "constants_origin.h"
 #include "stamper.h"
 #include "trk_bridge/base/sequence.h"
 #include "trk_bridge/camera/calibration.h"
@@ -14,14 +15,6 @@
 #include "trk_bridge/transport/sample.h"
 
 namespace trk_bridge::bridge {
-
-/// Where the constants in use come from, the weightiest last.
-enum class ConstantsOrigin : std::uint8_t {
-  none,
-  parameter,
-  any_camera,  ///< received with id 0, which serve every camera of the source
-  own,         ///< received with the camera's id, or with any where it has none
-};
 
 /// What became of a camera's records so far. Trivially copyable. "New" are those that base::Sequence takes for new, and
 /// all of protocols without a counter.
@@ -47,7 +40,7 @@ struct CameraStatistics {
   double fit_residual = 0;       ///< pixels, of the last CameraInfo
   transport::Sender sender;      ///< of the last new one, as are those below
   const char* encoding = "";     ///< transport::Sample::origin
-  std::int64_t last_new = 0;     ///< steady clock, ns; counts once sequence.accepted > 0
+  std::int64_t last_new = 0;     ///< steady clock, ns; valid once sequence.accepted > 0
 };
 
 /// What one sample gives to publish, all of one stamp.

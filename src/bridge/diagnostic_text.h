@@ -1,22 +1,29 @@
-// Numbers as diagnostics show them.
+// Numbers and words as diagnostics show them.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
+#include "constants_origin.h"
+
 namespace trk_bridge::bridge {
 
 /// "3.2 s"
-std::string seconds_text(double seconds);
-/// Two digits behind the point.
-std::string rate_text(double rate);
+std::string duration_text(double seconds);
+/// "3.20"
+std::string two_decimals(double value);
 /// Three digits behind the point.
 std::string pixels_text(double pixels);
 /// An error of a lens that is smaller than this (px) nobody sees.
 inline constexpr double visible_pixels = 0.01;
+/// Seconds since `then`, "never" unless `ever`. `then` and `now` in ns.
+std::string age_text(bool ever, std::int64_t then, std::int64_t now);
+/// Whether constants are known, and where from.
+const char* constants_text(ConstantsOrigin) noexcept;
+
 /// `from` and `to` in ns.
-double seconds_between(std::int64_t from, std::int64_t to);
+double seconds_between(std::int64_t from, std::int64_t to) noexcept;
 /// Events a second between two looks, `from` and `to` in ns; 0 when no time has passed.
-double rate_between(std::uint64_t events_before, std::uint64_t events_now, std::int64_t from, std::int64_t to);
+double rate_between(std::uint64_t events_before, std::uint64_t events_now, std::int64_t from, std::int64_t to) noexcept;
 
 }  // namespace trk_bridge::bridge

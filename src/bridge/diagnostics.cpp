@@ -24,20 +24,6 @@ std::string fault_text(const ReaderStatistics& reader) {
   return reader.has_fault ? describe(reader.last_fault) : std::string("none");
 }
 
-const char* constants_text(ConstantsOrigin origin) {
-  switch (origin) {
-    case ConstantsOrigin::none:
-      return "no";
-    case ConstantsOrigin::parameter:
-      return "from the parameter";
-    case ConstantsOrigin::any_camera:
-      return "received with id 0";
-    case ConstantsOrigin::own:
-      return "received";
-  }
-  return "no";
-}
-
 std::string camera_info_text(const CameraStatistics& camera) {
   if (camera.has_camera_info) return "yes";
   if (!camera.has_lens) return "no: the records have no lens";
@@ -76,82 +62,78 @@ Finding state(const CameraReport& now, const CameraReport& before, const CameraO
   if (age > silence_after(field_rate)) {
     if (now.camera.sequence.duplicates > before.camera.sequence.duplicates) {
       return {Condition::counter_stands, Level::warn,
-              "nothing new for " + seconds_text(age) + ": records come, but their counter stands still"};
+              "nothing new for " + duration_text(age) + ": records come, but their counter stands still"};
     }
     const std::string why = now.source.waiting_for.empty() ? "" : "; waiting for " + now.source.waiting_for;
-    return {Condition::nothing_new, Level::warn, "nothing new for " + seconds_text(age) + why};
+    return {Condition::nothing_new, Level::warn, "nothing new for " + duration_text(age) + why};
   }
-  return {
-      Condition::receiving, Level::ok,
-      "receiving from " + transport::to_string(now.camera.sender) + " at " + rate_text(rate_of(now, before)) + " Hz"};
+  return {Condition::receiving, Level::ok,
+          "receiving from " + transport::to_string(now.camera.sender) + " at " + two_decimals(rate_of(now, before)) +
+              " Hz"};
 }
 
 void add_source_findings(std::vector<Finding>& found, const CameraReport& now, const CameraReport& before) {
-  const auto warn = [&found](Condition condition, std::string text) {
-    found.push_back({condition, Level::warn, std::move(text)});
-  };
   const bool nothing_valid = now.source.state == SourceState::nothing_valid;
   if (now.source.malformed > before.source.malformed && !nothing_valid) {
-    warn(Condition::malformed, "malformed records: " + fault_text(now.reader));
+    warn(found, Condition::malformed, "malformed records: " + fault_text(now.reader));
   }
   if (now.source.refused > before.source.refused && now.source.state != SourceState::only_refused) {
-    warn(Condition::refused,
+    warn(found, Condition::refused,
          "datagrams from senders that are not allowed, last " + transport::to_string(now.source.last_refused));
   }
   if (now.source.kernel_drops > before.source.kernel_drops) {
-    warn(Condition::kernel_drops, "the kernel dropped datagrams: the receive buffer was full");
+    warn(found, Condition::kernel_drops, "the kernel dropped datagrams: the receive buffer was full");
   }
   if (now.reader.unknown_id_records > before.reader.unknown_id_records) {
-    warn(Condition::unknown_ids, "records with ids that no camera has: " + ids_text(now.reader));
+    warn(found, Condition::unknown_ids, "records with ids that no camera has: " + ids_text(now.reader));
   }
 }
 
 void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, const CameraReport& before,
                          const CameraOptions& options) {
-  const auto warn = [&found](Condition condition, std::string text) {
-    found.push_back({condition, Level::warn, std::move(text)});
-  };
   const auto& camera = now.camera;
   const auto& old = before.camera;
   if (camera.sequence.lost > old.sequence.lost) {
-    warn(Condition::lost, "lost " + std::to_string(camera.sequence.lost - old.sequence.lost));
+    warn(found, Condition::lost, "lost " + std::to_string(camera.sequence.lost - old.sequence.lost));
   }
   if (camera.id_changes > old.id_changes) {
-    warn(Condition::several_ids, "the id changes: give the camera the id it is to follow");
+    warn(found, Condition::several_ids, "the id changes: give the camera the id it is to follow");
   }
   if (camera.unstampable > old.unstampable) {
-    warn(Condition::unstampable, "records dropped: their time is outside of 1970 to 2106");
+    warn(found, Condition::unstampable, "records dropped: their time is outside of 1970 to 2106");
   }
   if (camera.dropped - camera.unstampable > old.dropped - old.unstampable) {
-    warn(Condition::dropped, "records dropped: " + camera::describe(camera.drop_reason));
+    warn(found, Condition::dropped, "records dropped: " + camera::describe(camera.drop_reason));
   }
   if (camera.bad_constants > old.bad_constants) {
-    warn(Condition::bad_constants, "constants ignored: " + camera::describe(camera::CameraReason::bad_constants));
+    warn(found, Condition::bad_constants,
+         "constants ignored: " + camera::describe(camera::CameraReason::bad_constants));
   }
   const bool no_constants = camera.constants == ConstantsOrigin::none;
   if (camera.withheld > old.withheld && camera.withhold_reason == camera::CameraReason::constants_needed) {
-    warn(Condition::withheld,
+    warn(found, Condition::withheld,
          "no constants yet: format '" + wire::format_to_words(camera.last_format) + "' needs them");
   } else if (camera.withheld > old.withheld) {
-    warn(Condition::withheld, "params withheld: " + camera::describe(camera.withhold_reason));
+    warn(found, Condition::withheld, "params withheld: " + camera::describe(camera.withhold_reason));
   } else if (!camera.has_lens) {
     found.push_back({Condition::pose_only, Level::ok, "the records have no lens: nothing but tf is published"});
   } else if (no_constants && options.publish_camera_info && camera.sequence.accepted > 0) {
-    warn(Condition::no_constants, "no constants yet: no camera_info");
+    warn(found, Condition::no_constants, "no constants yet: no camera_info");
   }
   if (!no_constants && camera.without_camera_info > old.without_camera_info) {
-    warn(Condition::no_camera_info, "no camera_info: " + camera::describe(camera.info_reason));
+    warn(found, Condition::no_camera_info, "no camera_info: " + camera::describe(camera.info_reason));
   }
   if (camera.has_camera_info && camera.fit_residual > visible_pixels) {
-    warn(Condition::lens_inexact,
-         "camera_info tells the distortion to " + pixels_text(camera.fit_residual) + " px, no better");
+    warn(found, Condition::lens_inexact,
+         "camera_info describes the distortion with an error of up to " + pixels_text(camera.fit_residual) + " px");
   }
   if (now.markers.not_drawn > before.markers.not_drawn) {
-    warn(Condition::no_markers, "no markers: " + describe(now.markers.reason));
+    warn(found, Condition::no_markers, "no markers: " + describe(now.markers.reason));
   }
   if (camera.held_stamps > old.held_stamps) {
-    warn(Condition::stamps_held, "the clock stands or stepped back: stamps are " +
-                                     seconds_text(seconds_between(0, camera.stamp_ahead)) + " ahead");
+    warn(found, Condition::stamps_held,
+         "the clock stands or stepped back: stamps are " + duration_text(seconds_between(0, camera.stamp_ahead)) +
+             " ahead");
   }
 }
 
@@ -172,7 +154,7 @@ void fill(Status& status, const std::vector<Finding>& found, const CameraReport&
   const auto& camera = now.camera;
   const bool any = camera.sequence.accepted > 0;
   status.add("source", now.source_name);
-  status.add("rate (Hz)", rate_text(rate_of(now, before)));
+  status.add("rate (Hz)", two_decimals(rate_of(now, before)));
   status.add("received", camera.sequence.accepted);
   status.add("lost", camera.sequence.lost);
   status.add("out of order", camera.sequence.late);
@@ -186,8 +168,7 @@ void fill(Status& status, const std::vector<Finding>& found, const CameraReport&
   status.add("reattached", now.source.reattached);
   status.add("unknown ids", now.reader.unknown_id_records);
   status.add("unknown format bits", now.source.unknown_format_bits);
-  status.add("age of last sample (s)",
-             any ? rate_text(seconds_between(camera.last_new, now.time)) : std::string("never"));
+  status.add("age of last sample (s)", age_text(any, camera.last_new, now.time));
   status.add("sender", transport::to_string(camera.sender));
   status.add("encoding", any ? camera.encoding : "none yet");
   status.add("format", any ? wire::format_to_words(camera.last_format) : std::string("none yet"));

@@ -12,7 +12,6 @@
 #include "finding.h"
 #include "status.h"
 #include "trk_bridge/transport/source.h"
-#include "trk_bridge/wire/fault.h"
 
 namespace trk_bridge::bridge {
 
@@ -20,7 +19,7 @@ namespace trk_bridge::bridge {
 struct ReaderStatistics {
   std::uint64_t unknown_id_records = 0;        ///< records with an id that no camera wants
   std::array<std::uint32_t, 8> unknown_ids{};  ///< the first different ones of them
-  std::uint32_t unknown_id_count = 0;          ///< how many of these count
+  std::uint32_t unknown_id_count = 0;          ///< how many of these are valid
   bool has_fault = false;
   transport::Fault last_fault{};  ///< of the last malformed record
 };

@@ -37,12 +37,13 @@ enum class Condition : std::uint8_t {
   no_camera_info,
   no_markers,
   stamps_held,
-  // of ros_to_trk, which shares some of those above
+  // of both
+  lens_inexact,
+  // of ros_to_trk, which shares some more of those above
   sending,
   id_left_out,
   bad_camera_info,
   tangential_lost,
-  lens_inexact,
   rows_disagree,
   bad_lens,
   sink_fails,
@@ -57,6 +58,9 @@ struct Finding {
   Level level;
   std::string text;
 };
+
+/// Adds one that a person should look into.
+void warn(std::vector<Finding>& found, Condition condition, std::string text);
 
 /// The worst level and all texts, joined.
 void summarize(const std::vector<Finding>& found, Status& status);

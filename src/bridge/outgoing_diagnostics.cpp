@@ -1,26 +1,14 @@
 #include "outgoing_diagnostics.h"
 
-#include <algorithm>
-#include <cstdio>
-
+#include "base/time_text.h"
 #include "diagnostic_text.h"
+#include "diagnostics.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::bridge {
 namespace {
 
-/// "1700000000.020", as stamps are printed elsewhere.
-std::string stamp_text(std::int64_t nanoseconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", seconds_between(0, nanoseconds));
-  return text;
-}
-
-std::string age_text(bool ever, std::int64_t then, std::int64_t now) {
-  return ever ? rate_text(seconds_between(then, now)) : std::string("never");
-}
-
-Finding sending(double rate) { return {Condition::sending, Level::ok, "sending at " + rate_text(rate) + " Hz"}; }
+Finding sending(double rate) { return {Condition::sending, Level::ok, "sending at " + two_decimals(rate) + " Hz"}; }
 
 /// How many sets an input has given to the sinks.
 struct Sets {
@@ -32,7 +20,7 @@ struct Sets {
 Finding nothing_sent(const Sets& sets, std::int64_t now, const std::string& why) {
   if (sets.count == 0) return {Condition::waiting, Level::stale, "nothing sent yet: " + why};
   return {Condition::nothing_new, Level::warn,
-          "nothing sent for " + seconds_text(seconds_between(sets.last, now)) + ": " + why};
+          "nothing sent for " + duration_text(seconds_between(sets.last, now)) + ": " + why};
 }
 
 Finding state(const ParamsReport& now, const ParamsReport& before) {
@@ -44,42 +32,40 @@ Finding state(const ParamsReport& now, const ParamsReport& before) {
   return sending(rate_between(before.params.received, sets.count, before.time, now.time));
 }
 
-/// Why no set can be made of the last pose; empty when one can.
-std::string lens_fault(const TfReport& now) {
-  if (now.tf.infos == 0) return "no camera_info yet on " + now.info_topic;
-  if (now.tf.info_is_refused) return "camera_info is refused: " + describe(now.tf.info_fault);
-  return "";
-}
-
 Finding state(const TfReport& now, const TfReport& before, double rate) {
   const Sets sets{now.tf.sets, now.tf.last_set};
   if (!now.pose_fault.empty()) return nothing_sent(sets, now.time, "tf: " + now.pose_fault);
-  if (const auto fault = lens_fault(now); !fault.empty()) return nothing_sent(sets, now.time, fault);
-  if (sets.count > 0 && seconds_between(sets.last, now.time) <= std::max(1.0, 5 / rate)) {
+  if (now.tf.infos == 0) return nothing_sent(sets, now.time, "no camera_info yet on " + now.info_topic);
+  if (now.tf.info_is_refused) {
+    // The log shows a condition once: this one is not lost behind the waiting before it.
+    auto refused = nothing_sent(sets, now.time, "camera_info is refused: " + describe(now.tf.info_fault));
+    refused.condition = Condition::bad_camera_info;
+    return refused;
+  }
+  if (sets.count > 0 && seconds_between(sets.last, now.time) <= silence_after(rate)) {
     return sending(rate_between(before.tf.sets, sets.count, before.time, now.time));
   }
   if (now.tf.dropped > before.tf.dropped) return nothing_sent(sets, now.time, camera::describe(now.tf.drop_reason));
-  return nothing_sent(sets, now.time, "tf is stale, its newest pose is of " + stamp_text(now.last_pose));
+  return nothing_sent(sets, now.time, "tf is stale, its newest pose is of " + base::seconds_text(now.last_pose));
 }
 
 void add_lens_findings(std::vector<Finding>& found, const TfReport& now, const TfReport& before) {
-  const auto warn = [&found](Condition condition, std::string text) {
-    found.push_back({condition, Level::warn, std::move(text)});
-  };
   if (now.tf.bad_lenses > before.tf.bad_lenses) {
-    warn(Condition::bad_lens, "messages on lens ignored: focus or aperture is not finite");
+    warn(found, Condition::bad_lens, "messages on lens ignored: focus or aperture is not finite");
   }
   if (now.tf.infos == 0 || now.tf.info_is_refused) return;
   if (now.tf.tangential > visible_pixels) {
-    warn(Condition::tangential_lost,
+    warn(found, Condition::tangential_lost,
          "the lens has tangential distortion, which trk cannot carry: up to " + pixels_text(now.tf.tangential) + " px");
   }
   if (now.tf.residual > visible_pixels) {
-    warn(Condition::lens_inexact, "k1 and k2 describe the distortion to " + pixels_text(now.tf.residual) + " px only");
+    warn(found, Condition::lens_inexact,
+         "k1 and k2 describe the distortion to " + pixels_text(now.tf.residual) + " px only");
   }
   if (now.tf.aspect > visible_pixels) {
-    warn(Condition::rows_disagree, "fx and fy do not agree with the chip's size: up to " + pixels_text(now.tf.aspect) +
-                                       " px; check chip_width, chip_height and blanks");
+    warn(found, Condition::rows_disagree,
+         "fx and fy do not agree with the chip's size: up to " + pixels_text(now.tf.aspect) +
+             " px; check chip_width, chip_height and blanks");
   }
 }
 
@@ -108,11 +94,11 @@ std::optional<Finding> state(const SinkReport& now, const SinkReport& before) {
 void add_outlet_findings(std::vector<Finding>& found, const SinkReport& now, const SinkReport& before) {
   const auto& sink = now.sink;
   if (sink.dropped > before.sink.dropped) {
-    found.push_back({Condition::dropped, Level::warn, "not sent: " + camera::describe(sink.drop_reason)});
+    warn(found, Condition::dropped, "not sent: " + camera::describe(sink.drop_reason));
   }
   if (sink.withheld > before.sink.withheld) {
-    found.push_back({Condition::withheld, Level::warn,
-                     "not sent, cannot be converted to the format: " + camera::describe(sink.withhold_reason)});
+    warn(found, Condition::withheld,
+         "not sent, cannot be converted to the format: " + camera::describe(sink.withhold_reason));
   }
   if (sink.left_out_id != 0) {
     found.push_back({Condition::id_left_out, Level::ok,
@@ -121,20 +107,15 @@ void add_outlet_findings(std::vector<Finding>& found, const SinkReport& now, con
   if (!now.queue || now.queue->failed) return;
   const auto drops = now.queue->drops - (before.queue ? before.queue->drops : 0);
   if (drops > 0) {
-    found.push_back({Condition::queue_drops, Level::warn,
-                     std::to_string(drops) + " records not sent: " + describe(OutletReason::outdated)});
+    warn(found, Condition::queue_drops,
+         std::to_string(drops) + " records not sent: " + describe(OutletReason::outdated));
   }
 }
 
 void add_input_values(Status& status, const Sets& sets, double rate, std::int64_t now) {
-  status.add("rate (Hz)", rate_text(rate));
+  status.add("rate (Hz)", two_decimals(rate));
   status.add("sets", sets.count);
   status.add("age of last set (s)", age_text(sets.count > 0, sets.last, now));
-}
-
-const char* constants_text(const ParamsToTrkStatistics& params) {
-  if (!params.constants_known) return "no";
-  return params.constants_received ? "received" : "from the parameter";
 }
 
 }  // namespace
@@ -146,11 +127,11 @@ SinkReport report_of(const Outlet& outlet, std::int64_t time) {
 std::vector<Finding> findings(const ParamsReport& now, const ParamsReport& before) {
   std::vector<Finding> found{state(now, before)};
   if (now.params.bad_constants > before.params.bad_constants) {
-    found.push_back({Condition::bad_constants, Level::warn,
-                     "constants ignored: " + camera::describe(camera::CameraReason::bad_constants)});
+    warn(found, Condition::bad_constants,
+         "constants ignored: " + camera::describe(camera::CameraReason::bad_constants));
   }
-  if (!now.params.constants_known && now.params.received > 0) {
-    found.push_back({Condition::no_constants, Level::warn, "no constants yet: none are sent"});
+  if (now.params.constants == ConstantsOrigin::none && now.params.received > 0) {
+    warn(found, Condition::no_constants, "no constants yet: none are sent");
   }
   return found;
 }
@@ -177,7 +158,7 @@ void fill(Status& status, const std::vector<Finding>& found, const ParamsReport&
   status.add("received", params.received);
   status.add("received format",
              params.received > 0 ? wire::format_to_words(params.last_format) : std::string("none yet"));
-  status.add("constants known", constants_text(params));
+  status.add("constants known", constants_text(params.constants));
   status.add("constants ignored", params.bad_constants);
 }
 
@@ -190,7 +171,7 @@ void fill(Status& status, const std::vector<Finding>& found, const TfReport& now
   const bool has_lens = tf.infos > 0 && !tf.info_is_refused;
   const auto of_lens = [has_lens](double pixels) { return has_lens ? pixels_text(pixels) : std::string("none"); };
   status.add("dropped", tf.dropped);
-  status.add("stamp of last set", tf.last_stamp > 0 ? stamp_text(tf.last_stamp) : std::string("none"));
+  status.add("stamp of last set", tf.last_stamp > 0 ? base::seconds_text(tf.last_stamp) : std::string("none"));
   status.add("tf", now.pose_fault.empty() ? std::string("ok") : now.pose_fault);
   status.add("camera_info received", tf.infos);
   status.add("camera_info refused", tf.refused_infos);
@@ -208,13 +189,14 @@ void fill(Status& status, const std::vector<Finding>& found, const SinkReport& n
   const auto& sink = now.sink;
   const bool ever_failed = sink.failed_sets > 0;
   status.add("sink", now.name);
-  status.add("rate (Hz)", rate_text(rate_between(before.sink.sent.params, sink.sent.params, before.time, now.time)));
+  status.add("rate (Hz)", two_decimals(rate_between(before.sink.sent.params, sink.sent.params, before.time, now.time)));
   status.add("sent", sink.sent.params);
   status.add("constants sent", sink.sent.constants);
   status.add("format", now.form.format ? wire::format_to_words(*now.form.format) : std::string("as received"));
   status.add("id", sink.sent.params > 0 ? std::to_string(sink.last_id) : std::string("none yet"));
   status.add("dropped", sink.dropped);
   status.add("withheld", sink.withheld);
+  status.add("constants refused", sink.refused_constants);
   status.add("errors", sink.sent.errors);
   status.add("failed sets", sink.failed_sets);
   status.add("last error", ever_failed ? describe(sink.last_fault) : std::string("none"));

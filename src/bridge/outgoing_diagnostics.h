@@ -25,7 +25,7 @@ struct TfReport {
   TfToTrkStatistics tf;
   std::string info_topic;      ///< as it is waited for
   std::string pose_fault;      ///< why tf has no pose now, in tf's own words; empty: it has one
-  std::int64_t last_pose = 0;  ///< ns since 1970, stamp of the newest pose that tf gave; 0: none or one for ever
+  std::int64_t last_pose = 0;  ///< ns since 1970, stamp of the newest pose that tf gave; 0: none or a static one
   std::int64_t time = 0;
 };
 
@@ -39,9 +39,8 @@ struct SinkReport {
 };
 SinkReport report_of(const Outlet&, std::int64_t time);
 
-/// What is the case in `now`: the state first, and then what has gone wrong since `before` (the look before it; of
-/// counters, only their growth is a finding). Nothing sent for a second, or five periods of `rate` where these are
-/// longer, is one.
+/// What `now` shows: the state first, and then what has gone wrong since `before` (the look before it; of
+/// counters, only their growth is a finding). Nothing sent for a second, or of tf for silence_after(rate), is one.
 std::vector<Finding> findings(const ParamsReport& now, const ParamsReport& before);
 std::vector<Finding> findings(const TfReport& now, const TfReport& before, double rate);
 std::vector<Finding> findings(const SinkReport& now, const SinkReport& before);

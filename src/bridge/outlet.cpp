@@ -19,6 +19,21 @@ WhenFull when_full(Blocking blocking, bool caller_can_wait) noexcept {
   return blocking == Blocking::storage ? WhenFull::fail : WhenFull::drop_oldest;
 }
 
+/// What a push cost; none where it cost nothing.
+std::optional<OutletReason> loss_of(Pushed pushed) noexcept {
+  switch (pushed) {
+    case Pushed::queued:
+      return std::nullopt;
+    case Pushed::made_room:
+      return OutletReason::outdated;
+    case Pushed::lost_constants:
+      return OutletReason::too_many_ids;
+    case Pushed::refused:
+      return OutletReason::too_slow;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Outlet::Outlet(const transport::SinkEndpoint& endpoint, const OutletOptions& options)
@@ -30,7 +45,7 @@ Outlet::Outlet(const transport::SinkEndpoint& endpoint, const OutletOptions& opt
       name_(sink->name()),
       form_(transport::with_defaults(endpoint.form, options.defaults)),
       listener_(options.listener),
-      writer_(std::move(sink), form_, options.rules, options.listener) {
+      writer_(std::move(sink), form_, options.feed, options.listener) {
   if (endpoint.blocking == Blocking::never) return;
   queue_.emplace(endpoint.blocking == Blocking::storage ? storage_capacity : attaching_capacity,
                  when_full(endpoint.blocking, options.caller_can_wait));
@@ -49,9 +64,8 @@ template <typename Record>
 void Outlet::pass(const Record& record) {
   // Once it is closed, the sink says so.
   if (!thread_.joinable()) return writer_.write(record);
-  const auto pushed = queue_->push(record);
-  if (pushed == Pushed::queued || !listener_) return;
-  listener_({record.id, pushed == Pushed::made_room ? OutletReason::outdated : OutletReason::too_slow});
+  const auto reason = loss_of(queue_->push(record));
+  if (reason && listener_) listener_({record.id, *reason});
 }
 
 void Outlet::write(const wire::CameraConstants& constants) { pass(constants); }

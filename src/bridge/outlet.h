@@ -15,14 +15,14 @@ namespace trk_bridge::bridge {
 /// How a program uses a sink.
 struct OutletOptions {
   transport::SinkForm defaults;  ///< for what the endpoint does not say
-  OutletRules rules;
+  Feed feed = Feed::passed_on;
   bool caller_can_wait = false;  ///< where there is no room, write() waits for it: for what is not live
   LossListener listener;         ///< called in the caller's thread and in the outlet's own
 };
 
 /// Opened by its constructor. A sink whose writes never wait is written in the caller's thread. The others have a
-/// thread and a queue of their own: attaching to shared memory costs the oldest sets, storage that does not keep up
-/// ends the recording.
+/// thread and a queue of their own: while it attaches to shared memory, the oldest sets are dropped; storage that does
+/// not keep up ends the recording.
 ///
 /// write() and close() are for one thread at a time, the rest for any.
 class Outlet {

@@ -7,7 +7,9 @@
 
 namespace trk_bridge::bridge {
 
-OutletQueue::OutletQueue(std::size_t capacity, WhenFull when_full) : when_full_(when_full), ring_(capacity) {}
+OutletQueue::OutletQueue(std::size_t capacity, WhenFull when_full) : when_full_(when_full), ring_(capacity) {
+  if (when_full == WhenFull::drop_oldest) kept_constants_.reserve(OutletWriter::most_ids);
+}
 
 Pushed OutletQueue::push(const wire::Record& record) {
   auto pushed = Pushed::queued;
@@ -19,33 +21,34 @@ Pushed OutletQueue::push(const wire::Record& record) {
       ++drops_;
       return Pushed::refused;
     }
-    if (count_ == ring_.size() && !make_room()) pushed = Pushed::made_room;
+    if (count_ == ring_.size()) pushed = make_room();
     ring_[(front_ + count_++) % ring_.size()] = record;
   }
   has_record_.notify_one();
   return pushed;
 }
 
-bool OutletQueue::make_room() {
+Pushed OutletQueue::make_room() {
   const auto oldest = take_front();
   if (const auto* constants = std::get_if<wire::CameraConstants>(&oldest)) {
-    keep(*constants);
-    return true;
+    if (keep(*constants)) return Pushed::queued;
+    ++drops_;
+    return Pushed::lost_constants;
   }
   ++drops_;
-  return false;
+  return Pushed::made_room;
 }
 
-void OutletQueue::keep(const wire::CameraConstants& constants) {
+bool OutletQueue::keep(const wire::CameraConstants& constants) {
   const auto older = std::find_if(kept_constants_.begin(), kept_constants_.end(),
                                   [&](const auto& kept) { return kept.id == constants.id; });
   if (older != kept_constants_.end()) {
-    *older = constants;
-  } else if (kept_constants_.size() < OutletWriter::most_ids) {
-    kept_constants_.push_back(constants);
-  } else {
-    ++drops_;
+    kept_constants_.erase(older);
+  } else if (kept_constants_.size() == OutletWriter::most_ids) {
+    return false;
   }
+  kept_constants_.push_back(constants);
+  return true;
 }
 
 wire::Record OutletQueue::take_front() {
@@ -60,8 +63,8 @@ std::optional<wire::Record> OutletQueue::pop() {
   has_record_.wait(lock, [this] { return closed_ || size() > 0; });
   if (size() == 0) return std::nullopt;
   if (!kept_constants_.empty()) {
-    const wire::Record record = kept_constants_.back();
-    kept_constants_.pop_back();
+    const wire::Record record = kept_constants_.front();
+    kept_constants_.erase(kept_constants_.begin());
     return record;
   }
   const auto record = take_front();

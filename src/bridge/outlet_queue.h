@@ -22,8 +22,9 @@ enum class WhenFull : std::uint8_t {
 /// What became of a record that was pushed.
 enum class Pushed : std::uint8_t {
   queued,
-  made_room,  ///< queued, and older parameters dropped for it
-  refused,    ///< the queue has failed or is closed
+  made_room,       ///< queued, and older parameters dropped for it
+  lost_constants,  ///< queued, and older constants dropped for it: those of OutletWriter::most_ids ids are kept
+  refused,         ///< the queue has failed or is closed
 };
 
 /// What a queue holds and has lost. Trivially copyable.
@@ -34,7 +35,7 @@ struct OutletQueueStatistics {
 };
 
 /// In order. One thread pushes, one pops; statistics() is for any. The lock is held for as long as it takes to copy a
-/// record. Allocates when it is made, and when constants outlive parameters that are dropped.
+/// record. Allocates when it is made, and never again.
 class OutletQueue {
  public:
   /// `capacity` is in records, and more than 0.
@@ -51,14 +52,15 @@ class OutletQueue {
  private:
   std::size_t size() const noexcept { return kept_constants_.size() + count_; }
   wire::Record take_front();
-  /// Room for one record. False where that cost parameters.
-  bool make_room();
-  void keep(const wire::CameraConstants&);
+  /// Room for one record, and what that cost.
+  Pushed make_room();
+  /// False where those of too many ids are kept.
+  bool keep(const wire::CameraConstants&);
 
   const WhenFull when_full_;
   mutable std::mutex mutex_;
   std::condition_variable has_record_, has_room_;
-  std::vector<wire::CameraConstants> kept_constants_;  // older than all of ring_, an id once
+  std::vector<wire::CameraConstants> kept_constants_;  // the oldest first, all older than ring_, an id once
   std::vector<wire::Record> ring_;
   std::size_t front_ = 0, count_ = 0;  // of ring_
   std::uint64_t drops_ = 0;

@@ -5,23 +5,13 @@
 #include "base/clock.h"
 
 namespace trk_bridge::bridge {
-namespace {
 
 using camera::CameraReason;
-
-/// Why the record is no camera, whatever the format.
-std::optional<CameraReason> no_camera(const camera::Converted& converted) noexcept {
-  if (!converted.pose) return converted.pose.error();
-  if (!converted.lens && converted.lens.error() == CameraReason::not_finite) return converted.lens.error();
-  return std::nullopt;
-}
-
-}  // namespace
 
 std::string describe(OutletReason reason) {
   switch (reason) {
     case OutletReason::too_many_ids:
-      return "constants of more than " + std::to_string(OutletWriter::most_ids) + " ids came; no more are taken";
+      return "constants of more than " + std::to_string(OutletWriter::most_ids) + " ids came; more are not accepted";
     case OutletReason::outdated:
       return "the oldest parameters are left out, because the sink does not keep up";
     case OutletReason::too_slow:
@@ -30,11 +20,11 @@ std::string describe(OutletReason reason) {
   return "unknown reason";
 }
 
-OutletWriter::OutletWriter(std::unique_ptr<transport::Sink> sink, const transport::SinkForm& form,
-                           const OutletRules& rules, LossListener listener)
+OutletWriter::OutletWriter(std::unique_ptr<transport::Sink> sink, const transport::SinkForm& form, Feed feed,
+                           LossListener listener)
     : sink_(std::move(sink)),
       form_(form),
-      rules_(rules),
+      feed_(feed),
       listener_(std::move(listener)),
       without_constants_(form.format) {}
 
@@ -62,10 +52,7 @@ void OutletWriter::write(const wire::CameraConstants& constants) {
 }
 
 void OutletWriter::write_unsound(const wire::CameraConstants& constants, CameraReason reason) {
-  if (auto* camera = find(constants.id)) {
-    camera->converter.forget();
-    camera->constants_written = {};
-  }
+  if (auto* camera = find(constants.id)) *camera = Camera{without_constants_, {}};
   if (form_.format) return refuse(constants, reason);
   // Nobody asked for a conversion: what they are worth is up to the receiver. A fault has been reported.
   static_cast<void>(put(constants));
@@ -95,9 +82,9 @@ void OutletWriter::write(const wire::CameraParams& params) {
 }
 
 std::optional<wire::CameraParams> OutletWriter::converted(const wire::CameraParams& params, const Camera* camera) {
-  if (!form_.format && !rules_.only_cameras) return params;
+  if (!form_.format && feed_ == Feed::passed_on) return params;
   const auto converted = (camera != nullptr ? camera->converter : without_constants_).convert(params);
-  if (const auto reason = no_camera(converted); reason && rules_.only_cameras) {
+  if (const auto reason = camera::why_no_camera(converted); reason && feed_ == Feed::one_camera) {
     ++statistics_.dropped;
     statistics_.drop_reason = *reason;
     lose(params.id, *reason);

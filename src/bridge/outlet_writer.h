@@ -21,13 +21,10 @@ constexpr std::uint32_t sent_id(const transport::SinkForm& form, std::uint32_t o
   return form.sends_id ? form.id.value_or(of_record) : 0;
 }
 
-/// What a program expects of the outlets of its sinks.
-struct OutletRules {
-  /// All records are of one camera, whatever their ids; else ids tell cameras apart.
-  bool one_camera = false;
-  /// Parameters that are no camera (a pose that is not finite or no rotation, a lens that is not finite) are dropped.
-  /// Else they are sent where the format needs no change.
-  bool only_cameras = false;
+/// Whose records a program writes to its sinks.
+enum class Feed : std::uint8_t {
+  passed_on,   ///< of as many cameras as there are ids; what is no camera is sent where the format needs no change
+  one_camera,  ///< of one camera, whatever their ids; what is no camera (camera::why_no_camera) is dropped
 };
 
 /// Why a record was lost before the sink.
@@ -44,7 +41,7 @@ struct Loss {
   /// Cannot be converted, was not taken by the sink, or did not come as far as that.
   using Cause = std::variant<camera::CameraReason, transport::SinkFault, OutletReason>;
 
-  std::uint32_t id = 0;  ///< as it came; with `outdated`, that of the record which room was made for
+  std::uint32_t id = 0;  ///< as it came; where a queue made room, that of the record which it was made for
   Cause cause;
 };
 /// Is called for every loss in the thread that met it.
@@ -57,12 +54,12 @@ struct OutletStatistics {
   std::uint64_t withheld = 0;  ///< parameters that cannot be converted to the format; `withhold_reason`
   camera::CameraReason drop_reason{}, withhold_reason{};
   std::uint64_t refused_constants = 0;  ///< those that leave no picture, and those of too many ids
-  std::uint32_t last_id = 0;            ///< as sent; counts once sent.params > 0
+  std::uint32_t last_id = 0;            ///< as sent; valid once sent.params > 0
   std::uint32_t left_out_id = 0;        ///< the last one that was not sent because the receiver takes none
 
   std::uint64_t failed_sets = 0;                                   ///< sets of which something did not go out
   bool fails = false;                                              ///< the last set was such
-  transport::SinkFault last_fault{transport::SinkReason::closed};  ///< counts once failed_sets > 0
+  transport::SinkFault last_fault{transport::SinkReason::closed};  ///< valid once failed_sets > 0
   std::int64_t last_failure = 0, last_success = 0;                 ///< of sets; steady clock, ns
 };
 
@@ -73,11 +70,12 @@ class OutletWriter {
   /// More cameras than any studio has.
   static constexpr std::size_t most_ids = 256;
 
-  OutletWriter(std::unique_ptr<transport::Sink>, const transport::SinkForm&, const OutletRules&, LossListener = {});
+  OutletWriter(std::unique_ptr<transport::Sink>, const transport::SinkForm&, Feed = Feed::passed_on, LossListener = {});
 
   /// Constants of the camera that the parameters with the same id come from. They go out when they are new
   /// (camera::Converter::use); those that could not be written go again before every later set until they could. Where
-  /// there is a format, constants that leave no picture are not sent, and the ones before are forgotten.
+  /// there is a format, constants that leave no picture are not sent, and parameters are converted without any until
+  /// others come; a datagram sink goes on repeating the last sound ones.
   void write(const wire::CameraConstants&);
   /// Converts and sends them. Without a format all numbers stay as they came.
   void write(const wire::CameraParams&);
@@ -94,7 +92,7 @@ class OutletWriter {
     bool retries = false;                  // it failed, and a set has come since
   };
 
-  std::uint32_t key(std::uint32_t id) const noexcept { return rules_.one_camera ? 0 : id; }
+  std::uint32_t key(std::uint32_t id) const noexcept { return feed_ == Feed::one_camera ? 0 : id; }
   Camera* find(std::uint32_t id) noexcept;
   /// Null where there are too many.
   Camera* find_or_add(std::uint32_t id);
@@ -112,7 +110,7 @@ class OutletWriter {
 
   const std::unique_ptr<transport::Sink> sink_;
   const transport::SinkForm form_;
-  const OutletRules rules_;
+  const Feed feed_;
   const LossListener listener_;
   const camera::Converter without_constants_;
   std::map<std::uint32_t, Camera> cameras_;

@@ -3,7 +3,7 @@
 namespace trk_bridge::bridge {
 
 ParamsToTrk::ParamsToTrk(const std::optional<wire::CameraConstants>& constants) noexcept : newest_(constants) {
-  statistics_.constants_known = constants.has_value();
+  if (constants) statistics_.constants = ConstantsOrigin::parameter;
 }
 
 void ParamsToTrk::use(const wire::CameraConstants& constants) noexcept {
@@ -12,7 +12,7 @@ void ParamsToTrk::use(const wire::CameraConstants& constants) noexcept {
     return;
   }
   newest_ = constants;
-  statistics_.constants_known = statistics_.constants_received = true;
+  statistics_.constants = ConstantsOrigin::own;
 }
 
 OutgoingSet ParamsToTrk::use(const wire::CameraParams& params, std::int64_t now) noexcept {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "constants_origin.h"
 #include "outgoing_set.h"
 #include "trk_bridge/camera/converter.h"
 
@@ -12,11 +13,10 @@ namespace trk_bridge::bridge {
 /// Trivially copyable.
 struct ParamsToTrkStatistics {
   std::uint64_t received = 0;       ///< parameters
-  std::int64_t last_received = 0;   ///< steady clock, ns; counts once received > 0
+  std::int64_t last_received = 0;   ///< steady clock, ns; valid once received > 0
   std::uint32_t last_format = 0;    ///< as received
   std::uint64_t bad_constants = 0;  ///< constants that leave no picture: ignored
-  bool constants_known = false;     ///< those of the parameter as well
-  bool constants_received = false;
+  ConstantsOrigin constants = ConstantsOrigin::none;
 };
 
 /// Not synchronised: one thread at a time. Allocates nothing.

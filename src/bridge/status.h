@@ -20,7 +20,6 @@ struct Status {
   std::vector<std::pair<std::string, std::string>> values;
 
   void add(std::string key, std::string value) { values.emplace_back(std::move(key), std::move(value)); }
-  void add(std::string key, const char* value) { values.emplace_back(std::move(key), value); }
   template <typename Count, typename = std::enable_if_t<std::is_integral_v<Count>>>
   void add(std::string key, Count count) {
     values.emplace_back(std::move(key), std::to_string(count));

@@ -22,9 +22,8 @@ void TfToTrk::use(const CameraInfo& info, std::int64_t stamp, std::int64_t now) 
   auto& lens = lenses_[count_ % history];
   ++count_;
   lens.stamp = stamp;
-  lens.lens.reset();
+  lens.lens = fitted_;
   if (!fitted_) return;
-  lens.lens = fitted_->lens;
   lens.width = static_cast<std::int32_t>(info.width);
   lens.height = static_cast<std::int32_t>(info.height);
 }
@@ -39,7 +38,7 @@ void TfToTrk::fit(const CameraInfo& info) {
     statistics_.info_fault = fitted.error();
     return;
   }
-  fitted_ = *fitted;
+  fitted_ = fitted->lens;
   statistics_.residual = fitted->residual;
   statistics_.tangential = fitted->tangential;
   statistics_.aspect = fitted->aspect;
@@ -87,6 +86,8 @@ std::optional<OutgoingSet> TfToTrk::make(const Eigen::Isometry3d& studio_T_frame
   camera.lens.focdist = focdist_;
   camera.lens.aperture = aperture_;
   const auto params = canonical_.convert(camera);
+  // Whether a set comes of it or not, this pose is done with.
+  last_pose_ = stamp;
   if (!params) {
     ++statistics_.dropped;
     statistics_.drop_reason = params.error();
@@ -97,7 +98,6 @@ std::optional<OutgoingSet> TfToTrk::make(const Eigen::Isometry3d& studio_T_frame
   chip_.image_width = at.width;
   chip_.image_height = at.height;
   if (canonical_.use(chip_) == camera::ConstantsChange::changed) set.constants = chip_;
-  last_pose_ = stamp;
   statistics_.last_stamp = stamp;
   ++statistics_.sets;
   statistics_.last_set = now;

@@ -27,12 +27,12 @@ struct TfToTrkOptions {
 /// Trivially copyable.
 struct TfToTrkStatistics {
   std::uint64_t sets = 0;       ///< made for outlets
-  std::int64_t last_set = 0;    ///< steady clock, ns; counts once sets > 0
-  std::int64_t last_stamp = 0;  ///< of the last pose in a set, ns since 1970; 0: none or of a pose for ever
+  std::int64_t last_set = 0;    ///< steady clock, ns; valid once sets > 0
+  std::int64_t last_stamp = 0;  ///< of the last pose in a set, ns since 1970; 0: none or of a static pose
   std::uint64_t dropped = 0;    ///< poses that with their lens are no camera; `drop_reason`
   camera::CameraReason drop_reason{};
   std::uint64_t infos = 0;          ///< CameraInfo that came
-  std::int64_t last_info = 0;       ///< steady clock, ns; counts once infos > 0
+  std::int64_t last_info = 0;       ///< steady clock, ns; valid once infos > 0
   std::uint64_t fits = 0;           ///< how many of them had another calibration than the one before
   std::uint64_t refused_infos = 0;  ///< of them, those without a lens that trk can send
   bool info_is_refused = false;     ///< the last one is, for `info_fault`
@@ -41,7 +41,7 @@ struct TfToTrkStatistics {
   std::uint64_t bad_lenses = 0;                     ///< calls of use_lens() with a value that is not finite: ignored
 };
 
-/// Stamps are ns since 1970; that of a pose for ever (static transforms alone) is 0. Not synchronised: one thread at a
+/// Stamps are ns since 1970; that of a static pose (of static transforms alone) is 0. Not synchronised: one thread at a
 /// time. Allocates only when a CameraInfo brings another calibration.
 class TfToTrk {
  public:
@@ -53,8 +53,8 @@ class TfToTrk {
   /// Focus (m) and aperture of the sets from now on.
   void use_lens(double focdist, double aperture) noexcept;
 
-  /// Whether a pose of this stamp is newer than that of the last set. A pose for ever always is, as is one older by
-  /// more than a second, for then time itself jumped back.
+  /// Whether a pose of this stamp is newer than the last one that a set was made of or that was dropped. A static pose
+  /// always is, as is one older by more than a second, for then time itself jumped back.
   bool is_new(std::int64_t stamp) const noexcept;
   /// Whether waiting for a moment may bring a lens of the same stamp: so far lenses had the stamps of poses, and the
   /// one of this pose has not come.
@@ -62,8 +62,9 @@ class TfToTrk {
   bool has_lens() const noexcept { return count_ > 0; }
 
   /// The set for a pose in the studio: canonical (euler, image distance in mm, shift on the chip, blanks considered),
-  /// id 0, with the lens of the newest CameraInfo that is not newer than the pose. None where there is no lens, or none
-  /// that trk can send, or the pose is not finite. The counter goes up by one with every set.
+  /// id 0, with the lens of the newest CameraInfo that is not newer than the pose: for a static pose the newest one of
+  /// all, for a pose older than all that are kept the oldest of them. None where there is no lens, or none that trk can
+  /// send, or the pose is not finite. The counter goes up by one with every set.
   std::optional<OutgoingSet> make(const Eigen::Isometry3d& studio_T_frame, std::int64_t stamp, std::int64_t now);
 
   const TfToTrkStatistics& statistics() const noexcept { return statistics_; }
@@ -84,8 +85,8 @@ class TfToTrk {
   const Eigen::Isometry3d frame_T_camera_;
   wire::CameraConstants chip_;  // with the size of the last set's image
   double focdist_, aperture_;
-  CameraInfo calibration_;  // the last one, fitted to `fitted_`
-  std::optional<camera::FittedLens> fitted_;
+  CameraInfo calibration_;              // the last one
+  std::optional<camera::Lens> fitted_;  // its lens
   std::array<StampedLens, history> lenses_;
   std::uint64_t count_ = 0;  // of all lenses so far
   bool in_step_ = true;

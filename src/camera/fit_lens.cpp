@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "least_squares.h"
+#include "numeric.h"
 #include "opencv_lens.h"
 #include "trk_bridge/camera/calibration.h"
 #include "trk_bridge/camera/image.h"
@@ -26,7 +27,7 @@ void fit_distortion(const View& view, Lens& lens) noexcept {
   Terms terms(node_count, 2);
   Values wanted(node_count);
   for (int i = 0; i < node_count; ++i) {
-    const double fraction = std::sin((i + 0.5) * (M_PI_2 / node_count));
+    const double fraction = chebyshev_node(i, node_count);
     const double distorted = view.reach * fraction;
     const double undistorted = view.inverse.undistorted_radius(distorted);
     // An error of the factor moves the distorted point by that much of the radius, as far as D lets it through.

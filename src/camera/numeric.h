@@ -8,6 +8,10 @@ namespace trk_bridge::camera {
 
 inline constexpr double degrees_per_radian = 180.0 / M_PI;
 
+/// The i-th of `count` places between 0 and 1 to fit at. They lie in the manner of Chebyshev, which spreads the error
+/// of least squares evenly over the range.
+inline double chebyshev_node(int i, int count) noexcept { return std::sin((i + 0.5) * (M_PI_2 / count)); }
+
 /// A function's value and slope at one place.
 struct ValueAndSlope {
   double value = 0, slope = 0;

@@ -40,11 +40,10 @@ struct Sample {
 };
 using Samples = std::array<Sample, node_count>;
 
-/// At radii in the manner of Chebyshev, which spreads a least squares error evenly over the range.
 Samples sample(const Curve& curve) noexcept {
   Samples samples;
   for (int i = 0; i < node_count; ++i) {
-    const double distorted = curve.reach * std::sin((i + 0.5) * (M_PI_2 / node_count));
+    const double distorted = curve.reach * chebyshev_node(i, node_count);
     const double undistorted = curve.undistorted(distorted);
     samples[static_cast<std::size_t>(i)] = {undistorted, distorted / undistorted};
   }

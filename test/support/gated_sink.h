@@ -1,17 +1,17 @@
 // A sink whose writes wait for the test's permission, to stand for a disk or a segment that is slow.
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <cstddef>
-#include <functional>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
+#include "deadline.h"
 #include "trk_bridge/transport/endpoint.h"
 
 namespace trk_bridge::test {
@@ -19,9 +19,9 @@ namespace trk_bridge::test {
 /// What a gated sink was given, and whether it may go on. Any thread.
 class Gate {
  public:
-  /// So many writes more may end; without a number, all of them.
-  void open(std::size_t writes = std::numeric_limits<std::size_t>::max() / 2) {
-    change([&] { allowed_ += writes; });
+  /// From now on writes end.
+  void open() {
+    change([&] { open_ = true; });
   }
   void set_fault(const std::optional<transport::SinkFault>& fault) {
     change([&] { fault_ = fault; });
@@ -54,9 +54,8 @@ class Gate {
     std::unique_lock<std::mutex> lock(mutex_);
     waiting_ = true;
     changed_.notify_all();
-    changed_.wait(lock, [&] { return allowed_ > 0; });
+    changed_.wait(lock, [&] { return open_; });
     waiting_ = false;
-    --allowed_;
     if (fault_) return tl::unexpected(*fault_);
     records_.push_back(record);
     changed_.notify_all();
@@ -76,7 +75,7 @@ class Gate {
   template <typename Condition>
   bool becomes(const Condition& condition) {
     std::unique_lock<std::mutex> lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(10), condition);
+    return changed_.wait_for(lock, deadline, condition);
   }
   template <typename Record>
   std::vector<Record> all() const {
@@ -89,8 +88,7 @@ class Gate {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::size_t allowed_ = 0;
-  bool waiting_ = false, closed_ = false;
+  bool open_ = false, waiting_ = false, closed_ = false;
   std::optional<transport::SinkFault> fault_;
   std::vector<wire::Record> records_;
 };

@@ -1,4 +1,5 @@
-// Whether two cameras are one, after a way that may cost digits or, with CameraInfo, a little of the lens.
+// Whether two cameras or two angles are one, after a way that may cost digits or, with CameraInfo, a little of the
+// lens.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +12,9 @@
 #include "trk_bridge/camera/image.h"
 
 namespace trk_bridge::test {
+
+/// Without sign, and without whole turns.
+inline double degrees_apart(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
 
 /// To 1e-9, relative beyond 1.
 inline ::testing::AssertionResult same_to_the_digits(const camera::Camera& camera, const camera::Camera& wanted) {

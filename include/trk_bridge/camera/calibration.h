@@ -1,4 +1,4 @@
-// The lens in the terms of ROS: K and a fitted D (camera model, "CameraInfo").
+// The lens in the terms of ROS: K and a fitted D (doc/lens_fit.md).
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// The canonical camera, read from and written to parameter records of any format (camera model, "Frames" to "Centre
-// shift"). z-up on both sides, camera to studio, image distance in mm, shift on the chip in mm, blanks considered.
+// The canonical camera, read from and written to parameter records of any format (doc/conventions.md). z-up on both
+// sides, camera to studio, image distance in mm, shift on the chip in mm, blanks considered.
 #pragma once
 
 #include <cstdint>

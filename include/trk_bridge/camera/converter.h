@@ -1,5 +1,4 @@
-// Records of one camera to one format, with the camera's constants remembered (camera model, "Frames" to "Centre
-// shift").
+// Records of one camera to one format, with the camera's constants remembered (doc/conventions.md).
 #pragma once
 
 #include <cstdint>
@@ -25,6 +24,10 @@ struct Converted {
   Result<Lens> lens;                  ///< decode_lens: constants_needed where the format needs them and there are none
   Result<wire::CameraParams> params;  ///< in the converter's format; id and counter as they came
 };
+
+/// Why a record is no camera, whatever the format: a pose that is not finite or no rotation, or a lens that is not
+/// finite. Without `has_lens` the lens says nothing. None where it is one.
+[[nodiscard]] std::optional<CameraReason> why_no_camera(const Converted&, bool has_lens = true) noexcept;
 
 /// Converts one camera's records to one format and remembers the camera's constants. Not synchronised, never allocates.
 class Converter {

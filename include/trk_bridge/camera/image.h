@@ -1,4 +1,5 @@
-// Chip, pixels and lens: projection, rasterisation, distortion (camera model, "Chip" to "Distortion").
+// Chip, pixels and lens: projection, rasterisation, distortion (doc/conventions.md, "Chip, blanks and pixels" to
+// "Distortion").
 #pragma once
 
 #include <Eigen/Core>

@@ -2,15 +2,42 @@
 #include <gmock/gmock.h>
 
 #include <limits>
+#include <memory>
 
 #include "allocations.h"
 #include "bridge/camera_info.h"
 #include "bridge/camera_pipeline.h"
+#include "bridge/outlet_queue.h"
+#include "bridge/outlet_writer.h"
+#include "bridge/params_to_trk.h"
+#include "bridge/tf_to_trk.h"
 
 namespace trk_bridge::bridge {
 namespace {
 
 using test::allocations_of;
+
+/// Takes everything and keeps nothing.
+class NoSink final : public transport::Sink {
+ public:
+  std::string name() const override { return "nothing"; }
+
+ private:
+  transport::Written put(const wire::CameraParams&) override { return {}; }
+  transport::Written put(const wire::CameraConstants&) override { return {}; }
+  transport::Written finish() override { return {}; }
+};
+
+OutletWriter writer_of(Feed feed) {
+  transport::SinkForm form;
+  form.format = wire::euler | wire::field_of_view;
+  return {std::make_unique<NoSink>(), form, feed};
+}
+
+void write(OutletWriter& writer, const OutgoingSet& set) {
+  if (set.constants) writer.write(*set.constants);
+  writer.write(set.params);
+}
 
 wire::CameraConstants constants() { return {0, 1920, 1080, 0, 0, 0, 0, 9.59, 5.39, 9.59, 5.39}; }
 
@@ -60,6 +87,101 @@ TEST(Allocation, DoesNotHappenForCameraInfosOfOneCalibration) {
   bool good = false;
   EXPECT_EQ(allocations_of([&] { good = same_calibration(info, other) && fit_lens(info, constants()); }), 0U);
   EXPECT_TRUE(good);
+}
+
+TEST(Allocation, DoesNotHappenForSetsOfTopics) {
+  ParamsToTrk input;
+  auto writer = writer_of(Feed::one_camera);
+  wire::CameraParams params;
+  params.format = wire::euler;
+  params.fov = 10;
+  const auto write_one = [&](int i) {
+    auto sent = constants();
+    sent.chip_width += 1e-3 * (i / 4);
+    // Some that leave no picture, and some poses that are no camera.
+    if (i % 20 == 19) sent.image_width = 0;
+    input.use(sent);
+    params.id = static_cast<std::uint32_t>(i % 3);
+    params.euler.pan = i % 7 == 6 ? std::numeric_limits<double>::infinity() : i;
+    write(writer, input.use(params, i));
+  };
+  write_one(0);
+  EXPECT_EQ(allocations_of([&] {
+              for (int i = 1; i < 300; ++i) write_one(i);
+            }),
+            0U);
+  EXPECT_GT(writer.statistics().sent.params, 200U);
+  EXPECT_GT(writer.statistics().sent.constants, 200U);
+  EXPECT_GT(writer.statistics().dropped, 10U);
+  EXPECT_GT(input.statistics().bad_constants, 10U);
+}
+
+TEST(Allocation, DoesNotHappenForSetsOfTf) {
+  TfToTrkOptions options;
+  options.chip = constants();
+  TfToTrk input(options);
+  auto writer = writer_of(Feed::one_camera);
+  CameraInfo info;
+  info.width = 1920;
+  info.height = 1080;
+  info.distortion_model = "plumb_bob";
+  info.d = {-0.1, 0.01, 0, 0, 0};
+  info.k = {1500, 0, 959.5, 0, 1500, 539.5, 0, 0, 1};
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const auto write_one = [&](int i) {
+    const std::int64_t stamp = 1'700'000'000'000'000'000 + std::int64_t{i} * 20'000'000;
+    input.use(info, stamp, i);
+    input.use_lens(i, 2.8);
+    pose.translation().x() = i % 7 == 6 ? std::numeric_limits<double>::infinity() : i;
+    if (!input.is_new(stamp)) return;
+    if (const auto set = input.make(pose, stamp, i)) write(writer, *set);
+  };
+  write_one(0);
+  EXPECT_EQ(allocations_of([&] {
+              for (int i = 1; i < 300; ++i) write_one(i);
+            }),
+            0U);
+  EXPECT_GT(writer.statistics().sent.params, 200U);
+  EXPECT_GT(input.statistics().dropped, 10U);
+}
+
+TEST(Allocation, DoesNotHappenForFeedsThatArePassedOn) {
+  auto writer = writer_of(Feed::passed_on);
+  const auto write_all = [&](int round) {
+    for (std::uint32_t id = 0; id < OutletWriter::most_ids + 3; ++id) {
+      auto sent = constants();
+      sent.id = id;
+      sent.chip_width += 1e-3 * round;
+      if (round == 2) sent.image_width = 0;
+      writer.write(sent);
+      wire::CameraParams params;
+      params.id = id;
+      params.format = wire::euler;
+      params.fov = 10;
+      writer.write(params);
+    }
+  };
+  write_all(0);
+  EXPECT_EQ(allocations_of([&] {
+              for (int round = 1; round < 5; ++round) write_all(round);
+            }),
+            0U);
+  EXPECT_EQ(writer.statistics().sent.constants, 4 * OutletWriter::most_ids);
+  EXPECT_GT(writer.statistics().withheld, OutletWriter::most_ids);
+}
+
+TEST(Allocation, DoesNotHappenInAQueueThatIsFull) {
+  OutletQueue queue(2, WhenFull::drop_oldest);
+  EXPECT_EQ(allocations_of([&] {
+              for (std::uint32_t i = 0; i < 2 * OutletWriter::most_ids; ++i) {
+                auto sent = constants();
+                sent.id = i;
+                (void)queue.push(sent);
+                (void)queue.push(wire::CameraParams{});
+              }
+            }),
+            0U);
+  EXPECT_GT(queue.statistics().queued, OutletWriter::most_ids);
 }
 
 }  // namespace

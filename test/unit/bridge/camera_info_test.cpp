@@ -63,6 +63,19 @@ TEST(CameraInfo, IsRefusedWithoutPixelsOrOfOtherModels) {
   expect_fault(info_of("rational_polynomial", {0.1, 0, 0, 0, 0}), InfoReason::coefficients);
 }
 
+TEST(CameraInfo, WhatIsWrongNamesWhatIsAllowed) {
+  EXPECT_EQ(describe(InfoFault{InfoReason::no_size, {}}), "width and height must be from 1 to 2147483647");
+  auto info = info_of("", {});
+  info.width = info.height = 0x7fffffff;
+  EXPECT_TRUE(viewing_lens(info));
+  EXPECT_EQ(describe(InfoFault{InfoReason::coefficients, {}}),
+            "D must have 0, 4 or 5 coefficients with plumb_bob, 8 with rational_polynomial");
+  for (const std::size_t count : {0U, 4U, 5U}) {
+    EXPECT_TRUE(viewing_lens(info_of("plumb_bob", std::vector<double>(count)))) << count;
+    EXPECT_TRUE(fit_lens(info_of("plumb_bob", std::vector<double>(count)), chip())) << count;
+  }
+}
+
 TEST(CameraInfo, WithNumbersThatNoCameraHasSaysWhy) {
   auto info = info_of("plumb_bob", {0, 0, 0, 0, 0});
   info.k[0] = 0;

@@ -16,7 +16,7 @@ constexpr std::int64_t field = 20'000'000;
 
 wire::CameraConstants constants(std::uint32_t id = 0) { return {id, 1920, 1080, 0, 0, 0, 0, 9.59, 5.39, 9.59, 5.39}; }
 
-/// Euler, told as an image distance: needs no constants.
+/// Euler, with an image distance: needs no constants.
 wire::CameraParams params(std::uint64_t counter, std::uint32_t id = 0) {
   wire::CameraParams p;
   p.id = id;

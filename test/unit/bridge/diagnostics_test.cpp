@@ -94,7 +94,7 @@ TEST_F(Diagnostics, ASilenceOfMoreThanASecondWarns) {
   expect(Level::warn, "nothing new for 3.0 s");
 }
 
-TEST_F(Diagnostics, ACounterThatStandsStillIsToldAsSuch) {
+TEST_F(Diagnostics, ACounterThatStandsStillIsNamed) {
   now.camera.last_new = now.time - 3 * second;
   now.camera.sequence.duplicates = 150;
   expect(Level::warn, "counter stands still");
@@ -158,12 +158,12 @@ TEST_F(Diagnostics, NoCameraInfoSaysWhy) {
   expect(Level::warn, "no camera_info: " + camera::describe(camera::CameraReason::not_monotonic));
 }
 
-TEST_F(Diagnostics, ALensThatCameraInfoTellsInexactlyIsToldWithItsError) {
+TEST_F(Diagnostics, ALensThatCameraInfoDescribesInexactlyIsShownWithItsError) {
   now.camera.has_camera_info = true;
   now.camera.fit_residual = 0.01;
   expect(Level::ok, "receiving");
   now.camera.fit_residual = 0.047;
-  expect(Level::warn, "camera_info tells the distortion to 0.047 px, no better");
+  expect(Level::warn, "camera_info describes the distortion with an error of up to 0.047 px");
   now.camera.has_camera_info = false;
   expect(Level::ok, "receiving");
 }
@@ -175,7 +175,7 @@ TEST_F(Diagnostics, TheEncodingIsThatOfTheLastNewRecord) {
   EXPECT_EQ(value("encoding"), "none yet");
 }
 
-TEST_F(Diagnostics, RecordsWithoutALensAreInOrderAndToldAsSuch) {
+TEST_F(Diagnostics, RecordsWithoutALensAreInOrderAndNamed) {
   now.camera.constants = ConstantsOrigin::none;
   now.camera.has_lens = false;
   now.camera.without_lens = 100;

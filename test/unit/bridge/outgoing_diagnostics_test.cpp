@@ -41,7 +41,7 @@ class ParamsDiagnostics : public ::testing::Test {
     now.time = 12 * second;
     now.params.received = 100;
     now.params.last_received = now.time - second / 50;
-    now.params.constants_known = now.params.constants_received = true;
+    now.params.constants = ConstantsOrigin::own;
   }
 
   Status status() const { return filled(findings(now, before), now, before); }
@@ -68,7 +68,7 @@ TEST_F(ParamsDiagnostics, SilenceIsShownWithItsLength) {
 }
 
 TEST_F(ParamsDiagnostics, MissingConstantsAreAFinding) {
-  now.params.constants_known = false;
+  now.params.constants = ConstantsOrigin::none;
   expect(status(), Level::warn, "sending at 50.00 Hz; no constants yet");
   EXPECT_EQ(value_of(status(), "constants known"), "no");
 }
@@ -109,7 +109,7 @@ TEST_F(TfDiagnostics, MissingTfIsShownInItsOwnWordsWithTheTimeSince) {
 
 TEST_F(TfDiagnostics, StaleTfIsShownWithTheStampOfItsNewestPose) {
   now.tf.last_set = now.time - 2 * second;
-  expect(status(), Level::warn, "nothing sent for 2.0 s: tf is stale, its newest pose is of 1700000000.020");
+  expect(status(), Level::warn, "nothing sent for 2.0 s: tf is stale, its newest pose is of 1700000000.020000000");
 }
 
 TEST_F(TfDiagnostics, SlowRatesMaySleepLonger) {
@@ -124,7 +124,16 @@ TEST_F(TfDiagnostics, MissingAndRefusedCameraInfo) {
   now.tf.infos = 1;
   now.tf.info_is_refused = true;
   now.tf.info_fault = {InfoReason::no_size, {}};
-  expect(status(), Level::stale, "camera_info is refused: width and height must be more than 0");
+  expect(status(), Level::stale, "camera_info is refused: width and height must be from 1 to 2147483647");
+}
+
+TEST_F(TfDiagnostics, ARefusedCameraInfoIsAConditionOfItsOwn) {
+  now.tf.info_is_refused = true;
+  now.tf.info_fault = {InfoReason::unknown_model, {}};
+  EXPECT_EQ(findings(now, before, 50).front().condition, Condition::bad_camera_info);
+  expect(status(), Level::warn, "camera_info is refused: " + describe(now.tf.info_fault));
+  now.tf.sets = 0;
+  EXPECT_EQ(findings(now, before, 50).front().condition, Condition::bad_camera_info);
 }
 
 TEST_F(TfDiagnostics, WhatTheLensLosesIsShownWithItsSize) {
@@ -220,6 +229,11 @@ TEST_F(SinkDiagnostics, WhatIsWithheldSaysWhy) {
   expect(status(), Level::warn, camera::describe(camera::CameraReason::constants_needed));
   EXPECT_THAT(status().message, Not(HasSubstr("sending")));
   EXPECT_EQ(value_of(status(), "withheld"), "100");
+}
+
+TEST_F(SinkDiagnostics, RefusedConstantsAreCounted) {
+  now.sink.refused_constants = 3;
+  EXPECT_EQ(value_of(status(), "constants refused"), "3");
 }
 
 TEST_F(SinkDiagnostics, OnlyGrowthIsAFinding) {

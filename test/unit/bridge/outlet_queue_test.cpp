@@ -63,14 +63,23 @@ TEST(OutletQueue, OfConstantsThatOutliveParametersTheNewestOfEveryIdIsKept) {
   }
   EXPECT_EQ(queue.push(params(1)), Pushed::queued);
   EXPECT_EQ(queue.push(params(2)), Pushed::made_room);
-  const auto records = all_of(queue);
-  EXPECT_THAT(records, testing::UnorderedElementsAre(constants(2, 8), constants(4, 7), params(2)));
-  EXPECT_EQ(records.back(), Record(params(2))) << "constants go before the parameters that came after them";
+  EXPECT_THAT(all_of(queue), ElementsAre(constants(2, 8), constants(4, 7), params(2)));
 }
 
-TEST(OutletQueue, ConstantsOfTooManyIdsAreNotKept) {
+TEST(OutletQueue, KeptConstantsGoInTheOrderInWhichTheyCame) {
   OutletQueue queue(1, WhenFull::drop_oldest);
-  for (std::uint32_t id = 0; id < OutletWriter::most_ids + 3; ++id) (void)queue.push(constants(720, id));
+  for (const auto& record : {constants(1, 7), constants(2, 8), constants(3, 7), constants(4, 9), constants(5, 8)}) {
+    EXPECT_EQ(queue.push(record), Pushed::queued);
+  }
+  EXPECT_EQ(queue.push(params(1)), Pushed::queued);
+  EXPECT_THAT(all_of(queue), ElementsAre(constants(3, 7), constants(4, 9), constants(5, 8), params(1)));
+}
+
+TEST(OutletQueue, ConstantsOfTooManyIdsAreLostAndSaidSo) {
+  OutletQueue queue(1, WhenFull::drop_oldest);
+  for (std::uint32_t id = 0; id < OutletWriter::most_ids + 3; ++id) {
+    EXPECT_EQ(queue.push(constants(720, id)), id <= OutletWriter::most_ids ? Pushed::queued : Pushed::lost_constants);
+  }
   EXPECT_EQ(queue.statistics().drops, 2u) << "all but those that are kept and the one in the queue";
   EXPECT_EQ(all_of(queue).size(), OutletWriter::most_ids + 1);
 }

@@ -1,6 +1,8 @@
 #include "bridge/outlet.h"
 
 #include <cerrno>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -17,6 +19,21 @@ using test::endpoint_of;
 using test::Gate;
 using test::params;
 using transport::Blocking;
+
+/// Opens gates when a test ends, also by a failure: an outlet that is destroyed waits for its sink. Declared after the
+/// outlets, it goes before them.
+class OpensAtEnd {
+ public:
+  explicit OpensAtEnd(std::vector<Gate*> gates) : gates_(std::move(gates)) {}
+  ~OpensAtEnd() {
+    for (auto* gate : gates_) gate->open();
+  }
+  OpensAtEnd(const OpensAtEnd&) = delete;
+  OpensAtEnd& operator=(const OpensAtEnd&) = delete;
+
+ private:
+  const std::vector<Gate*> gates_;
+};
 
 /// Of a sink that blocks from its first write on: one record is with it, the others wait.
 template <typename Use>
@@ -43,6 +60,7 @@ TEST(Outlet, OneThatBlocksDoesNotKeepTheOthersFromTheirRate) {
   Outlet to_live(endpoint_of(live), {});
   Outlet to_segment(endpoint_of(segment, Blocking::attaching), {});
   Outlet to_take(endpoint_of(take, Blocking::storage), {});
+  const OpensAtEnd guard({&segment, &take});
   for (std::uint64_t counter = 1; counter <= sets; ++counter) {
     for (auto* outlet : {&to_segment, &to_take, &to_live}) outlet->write(params(counter));
     ASSERT_EQ(live.count(), counter) << "at once, though the others wait";
@@ -65,6 +83,7 @@ TEST(Outlet, AttachingDropsTheOldestAndCountsThem) {
     losses += std::get<OutletReason>(loss.cause) == OutletReason::outdated;
   };
   Outlet outlet(endpoint_of(gate, Blocking::attaching), options);
+  const OpensAtEnd guard({&gate});
   with_blocked(gate, outlet, [&] {
     outlet.write(constants(1920));
     for (std::uint64_t counter = 1; counter <= sets; ++counter) outlet.write(params(counter));
@@ -84,6 +103,24 @@ TEST(Outlet, AttachingDropsTheOldestAndCountsThem) {
   for (std::size_t i = 0; i < written.size(); ++i) EXPECT_EQ(written[i].counter, losses + i + 1);
 }
 
+TEST(Outlet, ConstantsOfTooManyIdsThatTheQueueCannotKeepAreReported) {
+  Gate gate;
+  std::vector<OutletReason> reasons;
+  OutletOptions options;
+  options.listener = [&reasons](const Loss& loss) { reasons.push_back(std::get<OutletReason>(loss.cause)); };
+  Outlet outlet(endpoint_of(gate, Blocking::attaching), options);
+  const OpensAtEnd guard({&gate});
+  with_blocked(gate, outlet, [&] {
+    std::uint32_t id = 0;
+    while (outlet.queue()->drops == 0) {
+      ASSERT_LT(id, 10'000u);
+      outlet.write(constants(720, ++id));
+    }
+    EXPECT_GT(id, OutletWriter::most_ids);
+  });
+  EXPECT_THAT(reasons, testing::ElementsAre(OutletReason::too_many_ids));
+}
+
 TEST(Outlet, ARecordingThatCannotKeepUpEndsForGoodAndKeepsWhatItHas) {
   Gate gate;
   std::uint64_t losses = 0;
@@ -92,6 +129,7 @@ TEST(Outlet, ARecordingThatCannotKeepUpEndsForGoodAndKeepsWhatItHas) {
     losses += std::get<OutletReason>(loss.cause) == OutletReason::too_slow;
   };
   Outlet outlet(endpoint_of(gate, Blocking::storage), options);
+  const OpensAtEnd guard({&gate});
   std::uint64_t counter = 0;
   with_blocked(gate, outlet, [&] {
     while (!outlet.queue()->failed) {
@@ -131,6 +169,7 @@ TEST(Outlet, WhereTheCallerCanWaitNothingIsLost) {
 TEST(Outlet, ClosingWritesWhatIsQueuedThenEndsTheSink) {
   Gate gate;
   Outlet outlet(endpoint_of(gate, Blocking::storage), {});
+  const OpensAtEnd guard({&gate});
   with_blocked(gate, outlet, [&] {
     for (std::uint64_t counter = 1; counter <= 100; ++counter) outlet.write(params(counter));
   });
@@ -149,8 +188,8 @@ TEST(Outlet, OneThatIsDestroyedEndsLikewise) {
   Gate gate;
   {
     Outlet outlet(endpoint_of(gate, Blocking::storage), {});
+    const OpensAtEnd guard({&gate});
     with_blocked(gate, outlet, [&] { outlet.write(params(1)); });
-    gate.open();
   }
   EXPECT_EQ(gate.params().size(), 1u);
   EXPECT_TRUE(gate.is_closed());

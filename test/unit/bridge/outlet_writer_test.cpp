@@ -37,14 +37,11 @@ transport::SinkForm form_of_preset(const std::string& name) {
   return form;
 }
 
-/// What ros_to_trk asks for.
-constexpr OutletRules one_camera{true, true};
-
 class OutletWriterTest : public testing::Test {
  protected:
   OutletWriterTest() { gate.open(); }
-  OutletWriter writer(const transport::SinkForm& form = {}, const OutletRules& rules = {}) {
-    return {std::make_unique<test::GatedSink>(gate, "gate"), form, rules,
+  OutletWriter writer(const transport::SinkForm& form = {}, Feed feed = Feed::passed_on) {
+    return {std::make_unique<test::GatedSink>(gate, "gate"), form, feed,
             [this](const Loss& loss) { losses.push_back(loss); }};
   }
 
@@ -69,8 +66,9 @@ TEST_F(OutletWriterTest, WithoutAFormatEveryNumberStays) {
 TEST_F(OutletWriterTest, OneFeedForReceiversOfTwoFormatsEachRight) {
   test::Gate other;
   other.open();
-  auto aximmetry = writer(form_of_preset("aximmetry"), one_camera);
-  OutletWriter pixotope(std::make_unique<test::GatedSink>(other, "other"), form_of_preset("pixotope"), one_camera);
+  auto aximmetry = writer(form_of_preset("aximmetry"), Feed::one_camera);
+  OutletWriter pixotope(std::make_unique<test::GatedSink>(other, "other"), form_of_preset("pixotope"),
+                        Feed::one_camera);
   auto wide = constants(720, 7);
   wide.blank_left = wide.blank_right = 10;
   wide.fake_chip_width = wide.fake_chip_height = 0;
@@ -136,7 +134,7 @@ TEST_F(OutletWriterTest, OnlyNewConstantsGoOut) {
 }
 
 TEST_F(OutletWriterTest, OneCamerasConstantsServeAllIdsAndAreSentAgainWhenTheIdChanges) {
-  auto outlet = writer(form_of("euler field_of_view"), one_camera);
+  auto outlet = writer(form_of("euler field_of_view"), Feed::one_camera);
   outlet.write(constants(720, 7));
   outlet.write(params(1, 8));
   EXPECT_EQ(gate.params().size(), 1u);
@@ -208,8 +206,30 @@ TEST_F(OutletWriterTest, ConstantsThatCouldNotBeWrittenGoBeforeEveryLaterSetUnti
   EXPECT_GT(outlet.statistics().last_success, outlet.statistics().last_failure);
 }
 
-TEST_F(OutletWriterTest, WhatIsNoCameraIsDroppedWhereTheRulesSaySo) {
-  auto strict = writer(form_of("euler"), one_camera);
+TEST_F(OutletWriterTest, ConstantsWithoutAPictureEndTheRepeatsOfThoseThatTheSinkRefused) {
+  for (const auto& form : {transport::SinkForm{}, form_of("euler")}) {
+    auto outlet = writer(form);
+    outlet.write(constants(720));
+    outlet.write(params(1));
+    // As a file has it: it holds one set of constants.
+    gate.set_fault(SinkFault{SinkReason::constants_changed});
+    outlet.write(constants(1920));
+    outlet.write(params(2));
+    outlet.write(wire::CameraConstants{});
+    gate.set_fault(std::nullopt);
+    const auto before = gate.count();
+    outlet.write(params(3));
+    EXPECT_EQ(gate.count(), before + 1) << "no constants before it";
+    EXPECT_EQ(gate.params().back(), params(3));
+    EXPECT_FALSE(outlet.statistics().fails);
+    EXPECT_EQ(outlet.statistics().failed_sets, 1u);
+    outlet.write(constants(1920));
+    EXPECT_EQ(gate.constants().back(), constants(1920)) << "new again";
+  }
+}
+
+TEST_F(OutletWriterTest, WhatIsNoCameraIsDroppedFromTheFeedOfOneCamera) {
+  auto strict = writer(form_of("euler"), Feed::one_camera);
   auto nowhere = params(1);
   nowhere.euler.pan = std::nan("");
   strict.write(nowhere);

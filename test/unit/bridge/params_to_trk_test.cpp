@@ -1,7 +1,5 @@
 #include "bridge/params_to_trk.h"
 
-#include <cmath>
-
 #include <gmock/gmock.h>
 
 #include "udp.h"
@@ -21,7 +19,7 @@ TEST(ParamsToTrk, ParametersGoAsTheyCame) {
   EXPECT_EQ(input.statistics().received, 1u);
   EXPECT_EQ(input.statistics().last_received, 5);
   EXPECT_EQ(input.statistics().last_format, p.format);
-  EXPECT_FALSE(input.statistics().constants_known);
+  EXPECT_EQ(input.statistics().constants, ConstantsOrigin::none);
 }
 
 TEST(ParamsToTrk, ConstantsHaveTheIdOfTheParamsTheyGoWith) {
@@ -54,12 +52,12 @@ TEST(ParamsToTrk, TheNewestConstantsCountWhateverTheirId) {
 
 TEST(ParamsToTrk, ConstantsOfTheParameterCountUntilOthersCome) {
   ParamsToTrk input(constants(1920));
-  EXPECT_TRUE(input.statistics().constants_known);
+  EXPECT_EQ(input.statistics().constants, ConstantsOrigin::parameter);
   EXPECT_EQ(input.use(params(1), 0).constants->image_width, 1920);
-  EXPECT_FALSE(input.statistics().constants_received);
+  EXPECT_EQ(input.statistics().constants, ConstantsOrigin::parameter);
   input.use(constants());
   EXPECT_EQ(input.use(params(2), 0).constants->image_width, 720);
-  EXPECT_TRUE(input.statistics().constants_received);
+  EXPECT_EQ(input.statistics().constants, ConstantsOrigin::own);
 }
 
 TEST(ParamsToTrk, ConstantsWithoutAPictureAreIgnored) {

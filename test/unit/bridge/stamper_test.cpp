@@ -65,7 +65,7 @@ TEST(Stamper, EndsWithRosTime) {
   constexpr std::int64_t last = 4'294'967'295 * second + 999'999'999;
   Stamper stamper(nanoseconds(0));
   EXPECT_EQ(stamper.stamp(last), last);
-  EXPECT_FALSE(stamper.stamp(last)) << "nothing later can be told";
+  EXPECT_FALSE(stamper.stamp(last)) << "nothing later can be a stamp";
 }
 
 TEST(Stamper, UnorderedIsArrivalLessDelayWhateverCameBefore) {

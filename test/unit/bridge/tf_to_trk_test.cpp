@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t second = 1'000'000'000;
 constexpr std::int64_t start = 1'700'000'000 * second;
-constexpr std::int64_t for_ever = 0;
+constexpr std::int64_t static_stamp = 0;
 
 constexpr std::int64_t field(int n) { return start + second / 50 * n; }
 
@@ -104,7 +104,7 @@ TEST(TfToTrk, OnlyNewerPosesAreNewUnlessTimeJumpedBack) {
   EXPECT_FALSE(converter.is_new(field(9)));
   EXPECT_TRUE(converter.is_new(field(11)));
   EXPECT_TRUE(converter.is_new(start - 5 * second));
-  EXPECT_TRUE(converter.is_new(for_ever)) << "static transforms alone are never stale";
+  EXPECT_TRUE(converter.is_new(static_stamp)) << "static transforms alone are never stale";
 }
 
 TEST(TfToTrk, NothingWithoutALens) {
@@ -124,7 +124,7 @@ TEST(TfToTrk, ALensGoesWithThePoseOfItsStamp) {
   EXPECT_NEAR(converter.make(pose(), field(6) + second / 200, 0)->params.fov, 16, 1e-9) << "the one before it";
   EXPECT_NEAR(converter.make(pose(), field(50), 0)->params.fov, 19, 1e-9);
   EXPECT_NEAR(converter.make(pose(), start - 9 * second, 0)->params.fov, 10, 1e-9) << "the oldest there is";
-  EXPECT_NEAR(converter.make(pose(), for_ever, 0)->params.fov, 19, 1e-9);
+  EXPECT_NEAR(converter.make(pose(), static_stamp, 0)->params.fov, 19, 1e-9);
 }
 
 TEST(TfToTrk, ExpectsALensAsLongAsTheyComeWithThePoses) {
@@ -153,6 +153,17 @@ TEST(TfToTrk, APoseThatIsNotFiniteIsDropped) {
   ASSERT_TRUE(made);
   EXPECT_EQ(made->params.counter, 1u);
   EXPECT_TRUE(made->constants);
+}
+
+TEST(TfToTrk, APoseThatWasDroppedIsNotNewAgain) {
+  TfToTrk converter(options());
+  converter.use(info(), field(0), 0);
+  auto nowhere = pose();
+  nowhere.translation().x() = std::nan("");
+  EXPECT_FALSE(converter.make(nowhere, field(1), 0));
+  EXPECT_FALSE(converter.is_new(field(1)));
+  EXPECT_TRUE(converter.is_new(field(2)));
+  EXPECT_EQ(converter.statistics().last_stamp, 0) << "of no set";
 }
 
 TEST(TfToTrk, FitsOnlyWhatChanged) {

@@ -208,7 +208,7 @@ std::vector<double> published(const Distortion& distortion) {
   return {distortion.d.begin(), distortion.d.begin() + (distortion.model == DistortionModel::plumb_bob ? 5 : 8)};
 }
 
-TEST(LensOf, GivesBackTheLensThatWasPublished) {
+TEST(FitLens, GivesBackTheLensThatWasPublished) {
   CameraConstants constants{0, 720, 576, 8, 12, 4, 2, 9.59, 7.19, 0, 0};
   for (const double k1 : {0.0, 1e-4, -1e-3, 3e-3}) {
     for (const double k2 : {0.0, 1e-5, -2e-5}) {
@@ -240,7 +240,7 @@ TEST(LensOf, GivesBackTheLensThatWasPublished) {
   }
 }
 
-TEST(LensOf, ReadsEveryLengthOfD) {
+TEST(FitLens, ReadsEveryLengthOfD) {
   const std::array<double, 9> k = {1600, 0, 959.5, 0, 1600 * (1080 / 5.39) / (1920 / 9.59), 539.5, 0, 0, 1};
   const auto none = fit_lens(k, {}, hd);
   ASSERT_TRUE(none);
@@ -259,7 +259,7 @@ TEST(LensOf, ReadsEveryLengthOfD) {
   EXPECT_LE(four->residual, 0.3);
 }
 
-TEST(LensOf, TellsItsResidualHonestly) {
+TEST(FitLens, GivesItsResidualHonestly) {
   const std::array<double, 9> k = {1600, 0, 959.5, 0, 1600 * (1080 / 5.39) / (1920 / 9.59), 539.5, 0, 0, 1};
   const Distortion distortion{DistortionModel::rational_polynomial, {-0.3, 0.1, 0, 0, -0.02, 0.05, -0.01, 0.003}, 0};
   const auto fitted = fit_lens(k, published(distortion), hd);
@@ -268,7 +268,7 @@ TEST(LensOf, TellsItsResidualHonestly) {
   EXPECT_NEAR(measured_residual(fitted->lens, hd, distortion), fitted->residual, 0.1 * fitted->residual);
 }
 
-TEST(LensOf, SaysHowMuchIsLost) {
+TEST(FitLens, SaysHowMuchIsLost) {
   // Without radial terms p2 moves a point in the corner by 3 p2 x^2 + p2 y^2 across and 2 p2 xy down.
   const std::array<double, 9> k = {1000, 0, 499.5, 0, 1000, 499.5, 0, 0, 1};
   const CameraConstants square{0, 1000, 1000, 0, 0, 0, 0, 10, 10, 0, 0};
@@ -282,7 +282,7 @@ TEST(LensOf, SaysHowMuchIsLost) {
   EXPECT_EQ(aspect->lens.image_distance, 10);
 }
 
-TEST(LensOf, RefusesWhatIsNoCameraInfo) {
+TEST(FitLens, RefusesWhatIsNoCameraInfo) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::array<double, 9> good = {1600, 0, 959.5, 0, 1600, 539.5, 0, 0, 1};
   const auto reason = [](const std::array<double, 9>& k, const std::vector<double>& d, const CameraConstants& c) {

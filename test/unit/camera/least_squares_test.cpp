@@ -1,4 +1,4 @@
-#include "least_squares.h"
+#include "camera/least_squares.h"
 
 #include <gmock/gmock.h>
 

@@ -1,0 +1,16 @@
+// Where the constants in use come from.
+#pragma once
+
+#include <cstdint>
+
+namespace trk_bridge::bridge {
+
+/// Later ones replace earlier ones.
+enum class ConstantsOrigin : std::uint8_t {
+  none,
+  parameter,
+  any_camera,  ///< received with id 0, which serve every camera of the source
+  own,         ///< received with the camera's id, or with any where it has none
+};
+
+}  // namespace trk_bridge::bridge
