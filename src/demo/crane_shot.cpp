@@ -48,8 +48,8 @@ CraneShot::CraneShot(::ros::NodeHandle node, const ::ros::NodeHandle& private_no
   rate_ = parameters.rate;
   moves_joints_ = parameters.moves_joints;
   camera_info_.header.frame_id = parameters.optical_frame;
-  joint_state_.name.assign(demo::joint_names.begin(), demo::joint_names.end());
-  joint_state_.position.resize(demo::joint_names.size());
+  joint_state_.name.assign(joint_names.begin(), joint_names.end());
+  joint_state_.position.resize(joint_names.size());
   constexpr std::uint32_t queue = 100;
   if (moves_joints_) joint_states_ = node.advertise<sensor_msgs::JointState>("joint_states", queue);
   camera_infos_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", queue);
@@ -85,8 +85,8 @@ void CraneShot::run() {
 }
 
 void CraneShot::publish(double seconds) {
-  const demo::Moment moment = demo::moment_at(seconds);
-  const auto constants = demo::camera_constants();
+  const Moment moment = moment_at(seconds);
+  const auto constants = camera_constants();
   const auto stamp = ::ros::Time::now();
 
   camera_info_.header.stamp = stamp;

@@ -39,8 +39,8 @@ cv::Mat picture_of(sensor_msgs::Image& image, int width, int height) {
 
 TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string&) {
   const auto parameters =
-      demo::read_parameters(nodes::private_parameters(private_node), nodes::camera_name_of(node.getNamespace()));
-  figure_ = demo::figure_at(parameters.place);
+      read_test_card_parameters(nodes::private_parameters(private_node), nodes::camera_name_of(node.getNamespace()));
+  figure_ = figure_at(parameters.place);
   period_ = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.rate));
   image_.header.frame_id = parameters.optical_frame;
 
@@ -50,7 +50,7 @@ TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node
   paired_images_ = transport.advertise("rectified/image", 1);
   paired_infos_ = node.advertise<sensor_msgs::CameraInfo>("rectified/camera_info", 1);
   markers_ = node.advertise<visualization_msgs::MarkerArray>("test_card", 1, /*latch=*/true);
-  markers_.publish(demo::markers_of(figure_, parameters.studio_frame));
+  markers_.publish(markers_of(figure_, parameters.studio_frame));
 
   constants_subscriber_ = node.subscribe<trk_bridge::CameraConstants>(
       "constants", 1,
@@ -75,13 +75,13 @@ void TestCard::receive(const trk_bridge::CameraParamsConstPtr& message) {
   if (!render(*message)) return;
   if (raw) images_.publish(image_);
   to_be_rectified_ = rectified;
-  rectify_when_told();
+  rectify_if_possible();
 }
 
 void TestCard::receive(const sensor_msgs::CameraInfoConstPtr& message) {
   if (infos_.size() == kept_infos) infos_.pop_front();
   infos_.push_back(message);
-  rectify_when_told();
+  rectify_if_possible();
 }
 
 bool TestCard::render(const trk_bridge::CameraParams& params) {
@@ -89,7 +89,7 @@ bool TestCard::render(const trk_bridge::CameraParams& params) {
     picture_trouble_.report("no constants yet, no picture without");
     return false;
   }
-  const auto view = demo::View::of(ros1::from_msg(params), *constants_);
+  const auto view = View::of(ros1::from_msg(params), *constants_);
   if (!view) {
     picture_trouble_.report("no picture: " + camera::describe(view.error()));
     return false;
@@ -102,7 +102,7 @@ bool TestCard::render(const trk_bridge::CameraParams& params) {
   picture_trouble_.report("");
   image_.header.stamp = params.header.stamp;
   cv::Mat picture = picture_of(image_, view->width(), view->height());
-  demo::draw(figure_, *view, picture);
+  draw(figure_, *view, picture);
   return true;
 }
 
@@ -110,7 +110,7 @@ bool TestCard::rectified_wanted() const {
   return rectified_images_.getNumSubscribers() > 0 || paired_images_.getNumSubscribers() > 0;
 }
 
-void TestCard::rectify_when_told() {
+void TestCard::rectify_if_possible() {
   if (!to_be_rectified_) return;
   const auto found = std::find_if(infos_.rbegin(), infos_.rend(), [this](const sensor_msgs::CameraInfoConstPtr& info) {
     return info->header.stamp == image_.header.stamp;

@@ -40,7 +40,7 @@ class TestCard {
   void receive(const sensor_msgs::CameraInfoConstPtr&);
   bool render(const trk_bridge::CameraParams&);
   void rectify(const sensor_msgs::CameraInfo&);
-  void rectify_when_told();
+  void rectify_if_possible();
   bool rectified_wanted() const;
 
   /// What is wrong, "" for nothing: logged when it changes.
@@ -49,7 +49,7 @@ class TestCard {
     void report(const std::string& now);
   };
 
-  demo::Figure figure_;
+  Figure figure_;
   Clock::duration period_;
   Clock::time_point due_;
 

@@ -1,6 +1,7 @@
 // Lines, discs and words on a grey picture, exact to a small part of a pixel.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -3,13 +3,14 @@
 #include <utility>
 
 #include "ros/parameter_reader.h"
+#include "trk_bridge/ros/frames.h"
 
 namespace trk_bridge::demo {
 
-Parameters read_parameters(const XmlRpc::XmlRpcValue& tree, const std::string& camera) {
+TestCardParameters read_test_card_parameters(const XmlRpc::XmlRpcValue& tree, const std::string& camera) {
   ros1::ParameterReader reader(tree);
-  Parameters parameters;
-  parameters.optical_frame = camera + "_optical";
+  TestCardParameters parameters;
+  parameters.optical_frame = ros1::default_frames(camera).optical;
   reader.number("rate", parameters.rate, {0.1, 240, "Hz"});
   reader.parsed("studio_frame", parameters.studio_frame, ros1::parse_frame);
   reader.parsed("optical_frame", parameters.optical_frame, ros1::parse_frame);

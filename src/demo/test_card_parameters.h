@@ -9,13 +9,13 @@
 
 namespace trk_bridge::demo {
 
-struct Parameters {
+struct TestCardParameters {
   double rate = 25;  ///< images a second at most, Hz
   std::string studio_frame = "studio", optical_frame;
   Place place;
 };
 
 /// From a node's private parameters; `camera` is its camera's name. Throws ros1::ParameterError with every fault.
-Parameters read_parameters(const XmlRpc::XmlRpcValue& tree, const std::string& camera);
+TestCardParameters read_test_card_parameters(const XmlRpc::XmlRpcValue& tree, const std::string& camera);
 
 }  // namespace trk_bridge::demo

@@ -13,7 +13,7 @@ CameraOutput::CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&
       messages_(parameters.frames),
       field_rate_(field_rate),
       marker_topic_(markers),
-      log_(parameters.name) {
+      reporter_(parameters.name) {
   if (parameters.publish_markers) {
     markers_.emplace(parameters.name, parameters.frames.optical, parameters.marker_far,
                      bridge::silence_after(field_rate));
@@ -56,12 +56,7 @@ void CameraOutput::publish_markers(const bridge::CameraUpdate& update) {
 bridge::Status CameraOutput::describe(bridge::CameraReport report) {
   report.camera = statistics_.load();
   report.markers = marker_statistics_.load();
-  const auto found = bridge::findings(report, last_report_, parameters_.options, field_rate_);
-  bridge::Status status;
-  bridge::fill(status, found, report, last_report_);
-  log_.write(found);
-  last_report_ = std::move(report);
-  return status;
+  return reporter_.status(std::move(report), parameters_.options, field_rate_);
 }
 
 }  // namespace trk_bridge::nodes

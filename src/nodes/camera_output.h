@@ -10,10 +10,10 @@
 
 #include "bridge/camera_pipeline.h"
 #include "bridge/diagnostics.h"
-#include "finding_log.h"
 #include "ros/camera_messages.h"
 #include "ros/markers.h"
 #include "ros/trk_to_ros_parameters.h"
+#include "status_reporter.h"
 #include "trk_bridge/base/snapshot.h"
 
 namespace trk_bridge::nodes {
@@ -22,7 +22,8 @@ namespace trk_bridge::nodes {
 class CameraOutput {
  public:
   /// Advertises `params`, `constants` and `camera_info` in the namespace of `node`, and publishes the parameter's
-  /// constants where there are any. `markers` is a topic that cameras share; it counts where publish_markers is set.
+  /// constants where there are any. `markers` is a topic that cameras share; it is used only where publish_markers is
+  /// set.
   CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&, double field_rate, int queue_size,
                const ::ros::Publisher& markers);
 
@@ -49,8 +50,7 @@ class CameraOutput {
   tf2_ros::TransformBroadcaster transforms_;
   base::Snapshot<bridge::CameraStatistics> statistics_;
   base::Snapshot<bridge::MarkerStatistics> marker_statistics_;
-  bridge::CameraReport last_report_;
-  FindingLog log_;
+  StatusReporter<bridge::CameraReport> reporter_;
 };
 
 }  // namespace trk_bridge::nodes

@@ -1,5 +1,5 @@
-// What nodes have in common, as programs and as nodelets. A `Node` is made from (node handle, private node handle, full
-// name) and runs from construction to destruction.
+// What nodes have in common, as programs and as nodelets. A `Node` is constructed from (node handle, private node
+// handle, full name) and runs from construction to destruction.
 #pragma once
 
 #include <exception>
@@ -36,7 +36,8 @@ int node_main(int argc, char** argv, const char* name) {
   ::ros::removeROSArgs(argc, argv, arguments);
   ::ros::init(argc, argv, name);
   if (arguments.size() > 1) {
-    ROS_FATAL_STREAM(name << ": unknown argument '" << arguments[1] << "'; it takes parameters (_name:=value) alone");
+    ROS_FATAL_STREAM(name << ": unknown argument '" << arguments[1]
+                          << "'; only parameters (_name:=value) are accepted");
     return 2;
   }
   // Outlives the catch: with the last handle ROS shuts down, and the log with it.

@@ -6,17 +6,15 @@
 namespace trk_bridge::nodes {
 
 ParamsInput::ParamsInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& parameters, SetWriter write)
-    : write_(std::move(write)), sets_(parameters.constants), log_(parameters.name) {
+    : write_(std::move(write)), sets_(parameters.constants), reporter_(parameters.name) {
   statistics_.store(sets_.statistics());
-  last_report_.time = base::steady_now();
   const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
-  const auto no_delay = ::ros::TransportHints().tcpNoDelay();
   constants_ = node.subscribe<trk_bridge::CameraConstants>(
       "constants", queue, [this](const trk_bridge::CameraConstantsConstPtr& message) { receive(*message); },
-      ::ros::VoidConstPtr(), no_delay);
+      ::ros::VoidConstPtr(), no_delay());
   params_ = node.subscribe<trk_bridge::CameraParams>(
       "params", queue, [this](const trk_bridge::CameraParamsConstPtr& message) { receive(*message); },
-      ::ros::VoidConstPtr(), no_delay);
+      ::ros::VoidConstPtr(), no_delay());
 }
 
 void ParamsInput::receive(const trk_bridge::CameraConstants& message) {
@@ -30,13 +28,7 @@ void ParamsInput::receive(const trk_bridge::CameraParams& message) {
 }
 
 bridge::Status ParamsInput::describe() {
-  bridge::ParamsReport report{statistics_.load(), params_.getTopic(), base::steady_now()};
-  const auto found = bridge::findings(report, last_report_);
-  bridge::Status status;
-  bridge::fill(status, found, report, last_report_);
-  log_.write(found);
-  last_report_ = std::move(report);
-  return status;
+  return reporter_.status({statistics_.load(), params_.getTopic(), base::steady_now()});
 }
 
 }  // namespace trk_bridge::nodes

@@ -7,8 +7,8 @@
 #include <trk_bridge/CameraParams.h>
 
 #include "bridge/outgoing_diagnostics.h"
-#include "finding_log.h"
 #include "ros/ros_to_trk_parameters.h"
+#include "status_reporter.h"
 #include "trk_bridge/base/snapshot.h"
 #include "trk_input.h"
 
@@ -29,8 +29,7 @@ class ParamsInput : public TrkInput {
   SetWriter write_;
   bridge::ParamsToTrk sets_;
   base::Snapshot<bridge::ParamsToTrkStatistics> statistics_;
-  bridge::ParamsReport last_report_;
-  FindingLog log_;
+  StatusReporter<bridge::ParamsReport> reporter_;
   ::ros::Subscriber constants_, params_;
 };
 

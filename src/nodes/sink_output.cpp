@@ -10,17 +10,14 @@ namespace {
 bridge::OutletOptions options_for(const transport::SinkForm& form) {
   bridge::OutletOptions options;
   options.defaults = form;
-  options.rules.one_camera = true;
-  options.rules.only_cameras = true;
+  options.feed = bridge::Feed::one_camera;
   return options;
 }
 
 }  // namespace
 
 SinkOutput::SinkOutput(const transport::SinkEndpoint& endpoint, const transport::SinkForm& form)
-    : outlet_(endpoint, options_for(form)), log_(outlet_.name()) {
-  last_report_.time = base::steady_now();
-}
+    : outlet_(endpoint, options_for(form)), reporter_(outlet_.name()) {}
 
 SinkOutput::~SinkOutput() {
   if (const auto closed = outlet_.close(); !closed) {
@@ -33,14 +30,6 @@ void SinkOutput::write(const bridge::OutgoingSet& set) {
   outlet_.write(set.params);
 }
 
-bridge::Status SinkOutput::describe() {
-  auto report = bridge::report_of(outlet_, base::steady_now());
-  const auto found = bridge::findings(report, last_report_);
-  bridge::Status status;
-  bridge::fill(status, found, report, last_report_);
-  log_.write(found);
-  last_report_ = std::move(report);
-  return status;
-}
+bridge::Status SinkOutput::describe() { return reporter_.status(bridge::report_of(outlet_, base::steady_now())); }
 
 }  // namespace trk_bridge::nodes

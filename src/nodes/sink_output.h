@@ -4,16 +4,16 @@
 #include "bridge/outgoing_diagnostics.h"
 #include "bridge/outgoing_set.h"
 #include "bridge/outlet.h"
-#include "finding_log.h"
+#include "status_reporter.h"
 
 namespace trk_bridge::nodes {
 
 /// write() belongs to one thread, describe() to the diagnostics' one.
 class SinkOutput {
  public:
-  /// Opens the sink; `form` counts for what the endpoint does not say. Throws TransportError.
+  /// Opens the sink; `form` is used for what the endpoint does not say. Throws TransportError.
   SinkOutput(const transport::SinkEndpoint&, const transport::SinkForm& form);
-  /// Closes it; the log says of a sink that cannot be closed in order.
+  /// Closes it, and logs an error where that fails.
   ~SinkOutput();
   SinkOutput(const SinkOutput&) = delete;
   SinkOutput& operator=(const SinkOutput&) = delete;
@@ -27,8 +27,7 @@ class SinkOutput {
 
  private:
   bridge::Outlet outlet_;
-  bridge::SinkReport last_report_;
-  FindingLog log_;
+  StatusReporter<bridge::SinkReport> reporter_;
 };
 
 }  // namespace trk_bridge::nodes

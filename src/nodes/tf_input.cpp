@@ -11,10 +11,6 @@ namespace {
 /// How often a tick looks again for a pose that is late.
 constexpr int late_looks = 20;
 
-::ros::TransportHints no_delay() { return ::ros::TransportHints().tcpNoDelay(); }
-
-std::int64_t nanoseconds_of(const ::ros::Time& stamp) { return static_cast<std::int64_t>(stamp.toNSec()); }
-
 }  // namespace
 
 TfInput::TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& parameters, SetWriter write)
@@ -23,9 +19,8 @@ TfInput::TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& paramet
       period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.rate))),
       listener_(transforms_, node, /*spin_thread=*/true, no_delay()),
       sets_(parameters.tf),
-      log_(parameters.name),
+      reporter_(parameters.name),
       sent_form_(parameters.form.format) {
-  last_report_.time = base::steady_now();
   const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
   camera_info_ = node.subscribe<sensor_msgs::CameraInfo>(
       "camera_info", queue, [this](const sensor_msgs::CameraInfoConstPtr& message) { receive(*message); },
@@ -54,7 +49,7 @@ void TfInput::receive(const sensor_msgs::CameraInfo& message) {
   const auto info = ros1::from_msg(message);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    sets_.use(info, nanoseconds_of(message.header.stamp), base::steady_now());
+    sets_.use(info, ros1::from_time(message.header.stamp), base::steady_now());
   }
   changed_.notify_all();
 }
@@ -95,7 +90,7 @@ bool TfInput::look() {
     std::unique_lock<std::mutex> lock(mutex_);
     pose_fault_ = pose ? std::string() : pose.error();
     if (!pose) return true;
-    const auto stamp = nanoseconds_of(pose->header.stamp);
+    const auto stamp = ros1::from_time(pose->header.stamp);
     last_pose_ = stamp;
     if (!sets_.is_new(stamp)) return false;
     // tf and camera_info of one moment come on connections of their own.
@@ -113,7 +108,7 @@ void TfInput::publish(const bridge::OutgoingSet& set, const std_msgs::Header& he
   // Constants that leave no picture are not given by the input.
   if (set.constants) static_cast<void>(sent_form_.use(*set.constants));
   auto converted = sent_form_.convert(set.params).params;
-  // The diagnostics of the sinks say why.
+  // Sinks without a form of their own report why.
   if (!converted) return;
   converted->id = bridge::sent_id(parameters_.form, set.params.id);
   ros1::to_msg(*converted, sent_message_);
@@ -131,12 +126,7 @@ bridge::Status TfInput::describe() {
   }
   report.info_topic = camera_info_.getTopic();
   report.time = base::steady_now();
-  const auto found = bridge::findings(report, last_report_, parameters_.rate);
-  bridge::Status status;
-  bridge::fill(status, found, report, last_report_);
-  log_.write(found);
-  last_report_ = std::move(report);
-  return status;
+  return reporter_.status(std::move(report), parameters_.rate);
 }
 
 }  // namespace trk_bridge::nodes

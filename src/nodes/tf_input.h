@@ -16,8 +16,9 @@
 #include <tl/expected.hpp>
 
 #include "bridge/outgoing_diagnostics.h"
-#include "finding_log.h"
 #include "ros/ros_to_trk_parameters.h"
+#include "status_reporter.h"
+#include "trk_bridge/camera/converter.h"
 #include "trk_input.h"
 
 namespace trk_bridge::nodes {
@@ -60,9 +61,7 @@ class TfInput : public TrkInput {
   std::string pose_fault_ = "not looked yet";
   std::int64_t last_pose_ = 0;
 
-  // of the diagnostics
-  bridge::TfReport last_report_;
-  FindingLog log_;
+  StatusReporter<bridge::TfReport> reporter_;  // of the diagnostics
 
   // of the thread
   camera::Converter sent_form_;

@@ -1,17 +1,22 @@
-// Where ros_to_trk takes its sets from.
+// Where the sets of ros_to_trk come from.
 #pragma once
 
 #include <functional>
+
+#include <ros/transport_hints.h>
 
 #include "bridge/outgoing_set.h"
 #include "bridge/status.h"
 
 namespace trk_bridge::nodes {
 
-/// Takes one set to all sinks. Called from one thread at a time.
+/// Writes one set to all sinks. Called from one thread at a time.
 using SetWriter = std::function<void(const bridge::OutgoingSet&)>;
 
-/// Runs from construction to destruction and hands every set to the SetWriter that it was made with.
+/// For subscriptions: messages must not wait for others to be sent with them.
+inline ::ros::TransportHints no_delay() { return ::ros::TransportHints().tcpNoDelay(); }
+
+/// Runs from construction to destruction and hands every set to the SetWriter that it was constructed with.
 class TrkInput {
  public:
   virtual ~TrkInput() = default;

@@ -15,8 +15,8 @@
 
 namespace trk_bridge::nodes {
 
-/// Runs from construction to destruction. Diagnostics go out from the callback queue of `node`, all else from the
-/// readers' threads.
+/// Runs from construction to destruction. Diagnostics go out from the callback queue of `node`, records from the
+/// readers' threads; static transforms and the parameters' constants from the constructor.
 class TrkToRos {
  public:
   /// Topics are in the namespace of `node`, parameters in that of `private_node`; `name` is the node's or nodelet's

@@ -1,4 +1,4 @@
-// A camera's messages, made of what its pipeline gives.
+// A camera's messages, from the updates of its pipeline.
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>

@@ -2,6 +2,13 @@
 
 namespace trk_bridge::ros1 {
 
+CameraFrames default_frames(const std::string& camera_name) {
+  CameraFrames frames;
+  frames.camera = camera_name;
+  frames.optical = camera_name + "_optical";
+  return frames;
+}
+
 geometry_msgs::Transform to_transform(const Eigen::Isometry3d& parent_T_child) {
   Eigen::Quaterniond q(parent_T_child.linear());
   q.normalize();

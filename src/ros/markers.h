@@ -1,7 +1,6 @@
-// Markers: what they have in common, and a camera in them, for viewers that take no plugins.
+// Markers: what they have in common, and a camera in them, for viewers without plugins.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 

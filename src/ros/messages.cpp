@@ -54,6 +54,8 @@ void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& mes
   return time.fromNSec(static_cast<std::uint64_t>(nanoseconds));
 }
 
+std::int64_t from_time(const ::ros::Time& time) noexcept { return static_cast<std::int64_t>(time.toNSec()); }
+
 wire::CameraParams from_msg(const Params& message) {
   wire::CameraParams params;
   wire::copy_fields<wire::CameraParams>(message, params);

@@ -70,10 +70,10 @@ std::string shown(double number) {
   return out.str();
 }
 
-tl::expected<std::string, std::string> parse_camera_name(const std::string& name) {
+tl::expected<void, std::string> check_camera_name(const std::string& name) {
   bool sound = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
   for (const char c : name) sound = sound && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_');
-  if (sound) return name;
+  if (sound) return {};
   return tl::make_unexpected(std::string("a camera's name must begin with a letter, then letters, digits and _"));
 }
 
@@ -132,6 +132,8 @@ void ParameterReader::fault(const std::string& key, const std::string& value, co
 void ParameterReader::fault(const std::string& key, const std::string& text) {
   faults_->push_back(path_ + key + ": " + text);
 }
+
+void ParameterReader::fault(const std::string& text) { faults_->push_back(text); }
 
 bool ParameterReader::refuse(const std::string& key, const std::string& value, const std::string& allowed) {
   fault(key, value, allowed);
@@ -225,9 +227,17 @@ bool ParameterReader::constants(const std::string& key, std::optional<wire::Came
     faulty_.push_back(key);
     return false;
   }
-  if (const auto sound = camera::check(given); !sound) return refuse(key, "{…}", camera::describe(sound.error()));
+  if (const auto sound = camera::check(given); !sound) {
+    return refuse(key, text_of(tree_[key]), camera::describe(sound.error()));
+  }
   into = given;
   return true;
+}
+
+void check_camera_name(const std::string& name, ParameterReader& reader) {
+  if (const auto sound = check_camera_name(name); !sound) {
+    reader.fault("camera name " + shown(name) + " (from the namespace or the map cameras): " + sound.error());
+  }
 }
 
 void ParameterReader::diagnostic_period() {

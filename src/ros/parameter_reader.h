@@ -47,9 +47,9 @@ constexpr Range more_than(double least, const char* unit, double most = std::num
 std::string shown(const std::string& text);
 std::string shown(double number);
 
-/// What a camera may be called: topics and frames are named after it.
-tl::expected<std::string, std::string> parse_camera_name(const std::string&);
-/// What tf takes for a frame.
+/// Why a camera cannot be called this, if it cannot: topics and frames are named after it.
+tl::expected<void, std::string> check_camera_name(const std::string&);
+/// What tf accepts as a frame.
 tl::expected<std::string, std::string> parse_frame(const std::string&);
 
 /// Reads one map of parameters. Every function that reads a value leaves `into` as it is, which is the default, where
@@ -100,6 +100,9 @@ class ParameterReader {
   /// Adds the line "KEY: TEXT".
   void fault(const std::string& key, const std::string& text);
 
+  /// Adds a line that is about no key.
+  void fault(const std::string& text);
+
   /// Makes a fault of every key that is given and not known, with the nearest one that is.
   void refuse_unknown();
   /// The end of reading: refuses what is unknown, and throws ParameterError when there is any fault.
@@ -120,6 +123,9 @@ class ParameterReader {
   std::vector<std::string> known_, faulty_;
   const ParameterReader* outer_ = nullptr;
 };
+
+/// Adds a fault for a name that is none: it comes from the node's namespace, or is a key of `cameras`.
+void check_camera_name(const std::string& name, ParameterReader&);
 
 template <typename Value>
 bool ParameterReader::choice(const std::string& key, Value& into,

@@ -63,7 +63,7 @@ void check_input(ParameterReader& node, OutgoingInput input) {
   if (!node.are_sound({"input"})) return;
   if (input == OutgoingInput::params) {
     for (const char* key : {"blank_left", "blank_right", "blank_top", "blank_bottom"}) {
-      if (node.has(key)) node.fault(key, "belongs to input tf; with input params the constants tell blanks");
+      if (node.has(key)) node.fault(key, "belongs to input tf; with input params the blanks are in the constants");
     }
     return;
   }
@@ -83,7 +83,7 @@ RosToTrkParameters read_ros_to_trk_parameters(const XmlRpc::XmlRpcValue& tree, c
   ParameterReader node(tree);
   RosToTrkParameters parameters;
   parameters.name = parameters.camera_frame = camera_name;
-  if (const auto sound = parse_camera_name(camera_name); !sound) node.fault("name", shown(camera_name), sound.error());
+  check_camera_name(camera_name, node);
   node.diagnostic_period();
   read_sinks(node, parameters.sinks);
   node.choice("input", parameters.input, {{"params", OutgoingInput::params}, {"tf", OutgoingInput::tf}});

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "bridge/tf_to_trk.h"
 #include "parameter_reader.h"
 #include "trk_bridge/transport/endpoint.h"

@@ -33,17 +33,17 @@ void read_shared(ParameterReader& reader, CameraParameters& camera) {
   reader.flag("publish_tf", options.publish_tf);
   reader.flag("publish_camera_info", options.publish_camera_info);
   reader.flag("publish_markers", camera.publish_markers);
-  reader.number("marker_far", camera.marker_far,
-                more_than(marker_near, "metres (the frustum begins at the lower bound)", 1000));
+  reader.number("marker_far", camera.marker_far, more_than(marker_near, "metres", 1000));
 }
 
 /// What only one camera can have, and the rules between all that it has.
 void read_own(ParameterReader& reader, const std::string& name, CameraParameters& camera) {
   auto& frames = camera.frames;
   camera.name = name;
-  if (const auto sound = parse_camera_name(name); !sound) reader.fault("name", shown(name), sound.error());
-  frames.camera = name;
-  frames.optical = name + "_optical";
+  check_camera_name(name, reader);
+  const CameraFrames defaults = default_frames(name);
+  frames.camera = defaults.camera;
+  frames.optical = defaults.optical;
   reader.id("id", camera.options.id);
   reader.parsed("camera_frame", frames.camera, parse_frame);
   reader.parsed("optical_frame", frames.optical, parse_frame);
@@ -63,7 +63,7 @@ void read_own(ParameterReader& reader, const std::string& name, CameraParameters
   }
 }
 
-/// That tf gives both a place.
+/// A frame has one parent in tf, so that cameras cannot share one.
 void check_frames_of_pair(Reading& one, const Reading& before) {
   const auto& frames = one.camera.frames;
   const auto& taken = before.camera.frames;
@@ -80,22 +80,22 @@ void check_frames_of_pair(Reading& one, const Reading& before) {
 }
 
 /// That the records of one source can be told apart.
-void check_ids_of_pair(Reading& one, const Reading& before) {
+void check_ids_of_pair(Reading& one, Reading& before) {
   if (!one.reader.are_sound({"id"}) || !before.reader.are_sound({"id"})) return;
   const auto& id = one.camera.options.id;
   const auto& taken = before.camera.options.id;
   if (!id || !taken) {
-    one.reader.fault("id", "(none)",
-                     "cameras " + before.camera.name + " and " + one.camera.name + " share " +
-                         shown(one.camera.source->url) + ": each must say its id (camera " +
-                         (id ? before : one).camera.name + " does not)");
+    (id ? before : one)
+        .reader.fault("id", "(none)",
+                      "cameras " + before.camera.name + " and " + one.camera.name + " share " +
+                          shown(one.camera.source->url) + ": each must have its id");
   } else if (id == taken) {
     one.reader.fault("id", std::to_string(*id),
                      "is camera " + before.camera.name + "'s, too: ids on one source must differ");
   }
 }
 
-void check_pair(Reading& one, const Reading& before) {
+void check_pair(Reading& one, Reading& before) {
   check_frames_of_pair(one, before);
   const auto& source = one.camera.source;
   const auto& other = before.camera.source;
@@ -104,8 +104,8 @@ void check_pair(Reading& one, const Reading& before) {
     check_ids_of_pair(one, before);
   } else if (source->place == other->place) {
     one.reader.fault("source", shown(source->url),
-                     "camera " + before.camera.name + " has the same port, slot or file as " + shown(other->url) +
-                         ": cameras on one source must give the very same URL");
+                     "camera " + before.camera.name + " reads the same port, slot or file as " + shown(other->url) +
+                         ": cameras on one source must have the very same URL");
   }
 }
 
@@ -126,7 +126,7 @@ std::vector<CameraParameters> read_cameras(ParameterReader& node, const CameraPa
     Reading one{shared, *std::move(reader)};
     read_shared(one.reader, one.camera);
     read_own(one.reader, name, one.camera);
-    for (const auto& before : all) check_pair(one, before);
+    for (auto& before : all) check_pair(one, before);
     one.reader.refuse_unknown();
     all.push_back(std::move(one));
   }

@@ -26,7 +26,7 @@ inline constexpr Range field_rate_range{1, 1000, "Hz"};
 struct CameraParameters {
   std::string name;                                 ///< names its topics, frames and diagnostics
   std::optional<transport::SourceEndpoint> source;  ///< required: always there once read
-  CameraFrames frames;  ///< default: `camera` is the name, `optical` the name and "_optical"
+  CameraFrames frames;                              ///< default: default_frames(name)
   bridge::CameraOptions options;
   bool publish_markers = false;  ///< needs publish_camera_info
   double marker_far = 3;         ///< m, where the markers' frustum and axis end

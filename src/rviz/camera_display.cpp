@@ -116,14 +116,14 @@ void CameraDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
   status_.begin(now, steady_seconds());
   const FixedFrame fixed(*context_->getFrameManager());
   const auto sample = choose(fixed, now);
-  tell_topics(now, sample ? sample->pose_fault : std::string());
+  show_topic_status(now, sample ? sample->pose_fault : std::string());
   if (sample) draw(*sample, fixed);
   figure_->set_visible(sample.has_value());
 }
 
 std::optional<CameraDisplay::Sample> CameraDisplay::choose(const FixedFrame& fixed, const ros::Time& now) {
   if (!info_.alive(now, properties_.timeout())) {
-    tell_undrawn(/*transform_missing=*/false);
+    show_undrawn_status(/*transform_missing=*/false);
     return std::nullopt;
   }
   Sample sample;
@@ -135,7 +135,7 @@ std::optional<CameraDisplay::Sample> CameraDisplay::choose(const FixedFrame& fix
   if (!sample.info) {
     const auto newest = info_.samples().newest();
     status_.transform(fixed.why_unknown(newest->header.frame_id, newest->header.stamp));
-    tell_undrawn(/*transform_missing=*/true);
+    show_undrawn_status(/*transform_missing=*/true);
     return std::nullopt;
   }
   status_.transform("");
@@ -164,7 +164,7 @@ void CameraDisplay::draw(const Sample& sample, const FixedFrame& fixed) {
   figure_->draw(trail_, style_);
   const std::string name = properties_.name();
   figure_->write(name.empty() ? name_of_topic(info_.topic()) : name, values_text(sample), style_);
-  tell_drawn(sample);
+  show_drawn_status(sample);
 }
 
 void CameraDisplay::follow(const Sample& sample, const FixedFrame& fixed) {
@@ -202,7 +202,7 @@ std::string CameraDisplay::values_text(const Sample& sample) const {
   return text_of(values);
 }
 
-void CameraDisplay::tell_topics(const ros::Time& now, const std::string& pose_fault) {
+void CameraDisplay::show_topic_status(const ros::Time& now, const std::string& pose_fault) {
   const auto info = info_.state(now, properties_.timeout());
   const auto params = params_.state(now, properties_.timeout());
   status_.camera_info(info);
@@ -210,7 +210,7 @@ void CameraDisplay::tell_topics(const ros::Time& now, const std::string& pose_fa
   status_.constants(info, params);
 }
 
-void CameraDisplay::tell_drawn(const Sample& sample) {
+void CameraDisplay::show_drawn_status(const Sample& sample) {
   status_.lens(lens_);
   status_.frustum(style_.frustum.on, style_.frustum.near, style_.frustum.far);
   if (style_.focus_plane.on && sample.params) {
@@ -221,7 +221,7 @@ void CameraDisplay::tell_drawn(const Sample& sample) {
   status_.age(sample.info->header.stamp, info_.last_arrival());
 }
 
-void CameraDisplay::tell_undrawn(bool transform_missing) {
+void CameraDisplay::show_undrawn_status(bool transform_missing) {
   status_.nothing_drawn(transform_missing);
   if (const auto newest = info_.samples().newest()) status_.age(newest->header.stamp, info_.last_arrival());
 }

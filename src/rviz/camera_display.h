@@ -19,7 +19,6 @@
 
 namespace trk_bridge::rviz_display {
 
-class CameraFigure;
 class FixedFrame;
 
 /// Draws a tracked camera: its lens from CameraInfo, its pose from tf at the CameraInfo's own stamp, and what only
@@ -62,9 +61,9 @@ class CameraDisplay : public rviz::Display {
   void draw(const Sample& sample, const FixedFrame& fixed);
   void follow(const Sample& sample, const FixedFrame& fixed);
   std::string values_text(const Sample& sample) const;
-  void tell_topics(const ros::Time& now, const std::string& pose_fault);
-  void tell_drawn(const Sample& sample);
-  void tell_undrawn(bool transform_missing);
+  void show_topic_status(const ros::Time& now, const std::string& pose_fault);
+  void show_drawn_status(const Sample& sample);
+  void show_undrawn_status(bool transform_missing);
 
   DisplayProperties properties_;
   FigureStyle style_;

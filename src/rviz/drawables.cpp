@@ -1,8 +1,5 @@
 #include "drawables.h"
 
-#include <string>
-
-#include <OgreMaterial.h>
 #include <OgreMaterialManager.h>
 #include <OgreResourceGroupManager.h>
 #include <OgreTechnique.h>

@@ -12,16 +12,14 @@
 #include <ros/time.h>
 #include <boost/shared_ptr.hpp>
 
+#include "trk_bridge/ros/messages.h"
+
 namespace trk_bridge::rviz_display {
 
-/// Stamps are compared as integers: ros::Duration overflows, and throws, between stamps that are far apart.
-inline std::int64_t nanoseconds(const ros::Time& time) {
-  return static_cast<std::int64_t>(time.sec) * 1'000'000'000 + static_cast<std::int64_t>(time.nsec);
-}
-
-/// Seconds from `from` to `to`, whatever they are.
+/// Seconds from `from` to `to`. Stamps are compared as integers: ros::Duration overflows, and throws, between stamps
+/// that are far apart.
 inline double seconds_between(const ros::Time& from, const ros::Time& to) {
-  return static_cast<double>(nanoseconds(to) - nanoseconds(from)) * 1e-9;
+  return static_cast<double>(ros1::from_time(to) - ros1::from_time(from)) * 1e-9;
 }
 
 /// What add() made of a message.
@@ -77,7 +75,7 @@ class Samples {
     if (samples_.empty()) return nullptr;
     if (time.isZero()) return samples_.back();
     const auto after =
-        std::upper_bound(samples_.begin(), samples_.end(), nanoseconds(time),
+        std::upper_bound(samples_.begin(), samples_.end(), ros1::from_time(time),
                          [](std::int64_t wanted, const Ptr& sample) { return wanted < stamp_of(sample); });
     return after == samples_.begin() ? *after : *(after - 1);
   }
@@ -87,7 +85,7 @@ class Samples {
   std::size_t size() const { return samples_.size(); }
 
  private:
-  static std::int64_t stamp_of(const Ptr& message) { return nanoseconds(message->header.stamp); }
+  static std::int64_t stamp_of(const Ptr& message) { return ros1::from_time(message->header.stamp); }
 
   void forget_old() {
     const std::int64_t oldest_wanted = stamp_of(samples_.back()) - window;

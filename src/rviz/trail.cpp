@@ -12,7 +12,7 @@ void Trail::add(const ros::Time& time, const std::string& frame, const Eigen::Ve
     frame_ = frame;
   }
   if (!position.allFinite()) return;
-  if (points_.empty() || nanoseconds(time) > nanoseconds(points_.back().time)) {
+  if (points_.empty() || ros1::from_time(time) > ros1::from_time(points_.back().time)) {
     const bool last_may_move = points_.size() >= 2;
     if (last_may_move && (points_.back().position - points_[points_.size() - 2].position).norm() < spacing) {
       points_.back() = {time, position};

@@ -4,6 +4,8 @@
 #include <trk_bridge/CameraParams.h>
 
 #include "fixture.h"
+#include "repeating.h"
+#include "reserved_port.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::test {
@@ -55,10 +57,30 @@ TEST_F(Conditions, DuplicatesAndLateRecordsAreNeverPublishedRestartsAre) {
   }
 }
 
+TEST_F(Conditions, TheFirstRateIsThatOfTheRecordsSinceTheStart) {
+  std::optional<std::string> first;
+  const ::ros::Subscriber subscriber = ::ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>(
+      diagnostics.topic(), 100, [&](const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
+        for (const auto& status : message->status) {
+          if (!first && status.message.find("receiving from") == 0) first = status.message;
+        }
+      });
+  const ReservedPort reserved;
+  set("source", reserved.url());
+  const Tracker early(reserved.number());
+  // The first diagnostics already have records.
+  std::uint64_t counter = 0;
+  const Repeating sending(50, [&] { early.send(test::params(++counter)); });
+  start();
+  ASSERT_TRUE(eventually([&] { return first.has_value(); }));
+  const double rate = std::stod(first->substr(first->find(" at ") + 4));
+  EXPECT_GT(rate, 5) << *first;
+}
+
 TEST_F(Conditions, MalformedDatagramsCostThemselvesAlone) {
   ASSERT_NO_FATAL_FAILURE(open());
   tracker->send_bytes("hello");
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "datagrams come but none is trk"));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "datagrams come but none is trk"));
   tracker->send(test::params(1));
   tracker->send_bytes(std::string("DMC01\0PA1 1 2 3 4", 17));
   tracker->send_bytes("");
@@ -84,16 +106,16 @@ TEST_F(Conditions, WhatIsNoRotationNeverReachesTf) {
 
 TEST_F(Conditions, SilenceIsToldAndNothingIsRepeated) {
   ASSERT_NO_FATAL_FAILURE(open());
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::STALE, "nothing received yet"));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::STALE, "nothing received yet"));
   tracker->send(test::params(1));
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "nothing new for"));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "nothing new for"));
   EXPECT_EQ(transforms->transforms.size(), 1u);
 }
 
 TEST_F(Conditions, SendersThatAreNotAllowed) {
   ASSERT_NO_FATAL_FAILURE(open("?allow=127.0.0.2"));
   tracker->send(test::params(1));
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "senders that are not allowed"));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "senders that are not allowed"));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "refused senders", "1"));
   EXPECT_TRUE(transforms->transforms.empty());
 }
@@ -102,7 +124,7 @@ TEST_F(Conditions, IdsThatTheCameraDoesNotWant) {
   set("id", 7);
   ASSERT_NO_FATAL_FAILURE(open());
   tracker->send(test::params(1, 3));
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "none with id 7; seen: 3"));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "none with id 7; seen: 3"));
   tracker->send(test::params(1, 7));
   EXPECT_TRUE(counters_are({1}));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "unknown ids", "1"));
@@ -137,7 +159,7 @@ TEST_F(Conditions, ConstantsNeverComeParamsThatNeedNoneAreToldWithoutCameraInfo)
   ASSERT_NO_FATAL_FAILURE(open());
   tracker->send(test::params(1));
   EXPECT_TRUE(counters_are({1}));
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "no constants yet"));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "no constants yet"));
   EXPECT_TRUE(infos->messages.empty());
 }
 

@@ -72,7 +72,7 @@ std::string DiagnosticsRecorder::value(const std::string& name, const std::strin
                                        << "'";
 }
 
-::testing::AssertionResult DiagnosticsRecorder::tells(const std::string& name, int level, const std::string& text) {
+::testing::AssertionResult DiagnosticsRecorder::reports(const std::string& name, int level, const std::string& text) {
   const auto met = [&] {
     const auto* status = find(name);
     return status != nullptr && status->level == level && status->message.find(text) != std::string::npos;
@@ -93,14 +93,14 @@ CameraTest::CameraTest(const std::string& node)
   set("diagnostic_period", 0.1);
 }
 
-::testing::AssertionResult CameraTest::tells_of(const std::string& subject) {
+::testing::AssertionResult CameraTest::reports_on(const std::string& subject) {
   const std::string name = status_name(subject);
-  // Values come once what it is made of runs; what was told before is "Node starting up".
-  const auto told = [&] {
+  // Values come once its threads have started; before there is only "Node starting up".
+  const auto reported = [&] {
     const auto* status = diagnostics.find(name);
     return status != nullptr && !status->values.empty();
   };
-  if (eventually(told)) return ::testing::AssertionSuccess();
+  if (eventually(reported)) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "no diagnostics of " << name;
 }
 

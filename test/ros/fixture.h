@@ -64,7 +64,7 @@ class DiagnosticsRecorder {
   /// Waits until the value is this.
   ::testing::AssertionResult becomes(const std::string& name, const std::string& key, const std::string& expected);
   /// Waits until the summary has this level and contains `text`.
-  ::testing::AssertionResult tells(const std::string& name, int level, const std::string& text);
+  ::testing::AssertionResult reports(const std::string& name, int level, const std::string& text);
 
  private:
   std::map<std::string, diagnostic_msgs::DiagnosticStatus> newest_;
@@ -87,7 +87,7 @@ class Tracker {
   std::uint16_t port_;
 };
 
-/// One camera in a namespace of its own, made for one test, and the parameters of its node.
+/// One camera in a namespace of its own, for one test, and the parameters of its node.
 class CameraTest : public ::testing::Test {
  protected:
   explicit CameraTest(const std::string& node);
@@ -97,9 +97,9 @@ class CameraTest : public ::testing::Test {
   void set(const std::string& key, const T& value) {
     ::ros::param::set(node_name + "/" + key, value);
   }
-  /// Waits until the node has told the state of `subject`: what it was made of runs.
-  ::testing::AssertionResult tells_of(const std::string& subject);
-  /// The UDP port that the diagnostics of `of_camera` tell.
+  /// Waits until the node has reported the state of `subject`: its threads have started.
+  ::testing::AssertionResult reports_on(const std::string& subject);
+  /// The UDP port in the diagnostics of `of_camera`.
   std::uint16_t port(const std::string& of_camera) const;
   std::uint16_t port() const { return port(camera); }
   std::string status_name(const std::string& subject) const { return node_name.substr(1) + ": " + subject; }
@@ -124,10 +124,10 @@ class NodeTest : public CameraTest {
     const ::ros::M_string remapped{{"/diagnostics", diagnostics.topic()}};
     node = std::make_unique<Node>(::ros::NodeHandle(name_space, remapped), ::ros::NodeHandle(node_name), node_name);
   }
-  /// Starts it and waits until it has told the state of camera `told_of`.
-  ::testing::AssertionResult starts(const std::string& told_of) {
+  /// Starts it and waits until it has reported the state of `subject`.
+  ::testing::AssertionResult starts(const std::string& subject) {
     start();
-    return tells_of(told_of);
+    return reports_on(subject);
   }
   ::testing::AssertionResult starts() { return starts(camera); }
   /// Expects that it cannot start and returns why.
@@ -149,7 +149,7 @@ class TrkToRosTest : public NodeTest<nodes::TrkToRos> {
   TrkToRosTest() : NodeTest("trk_to_ros") {}
 };
 
-/// A source on a port that the kernel picks. Diagnostics tell which.
+/// A source on a port that the kernel picks. Diagnostics contain which.
 inline const std::string any_udp_port = "udp://127.0.0.1:0";
 
 }  // namespace trk_bridge::test

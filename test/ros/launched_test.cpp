@@ -1,6 +1,7 @@
 // The launch files, started by the test's own one with a take that plays for ever, and its nodelet manager.
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nodelet/NodeletLoad.h>
@@ -11,6 +12,7 @@
 #include "fixture.h"
 #include "reserved_port.h"
 #include "roslaunch.h"
+#include "trk_bridge/ros/messages.h"
 
 namespace trk_bridge::test {
 namespace {
@@ -61,12 +63,12 @@ INSTANTIATE_TEST_SUITE_P(As, Launched, ::testing::Values("launched_node", "launc
 
 class InManager : public CameraTest {
  protected:
-  InManager() : CameraTest("trk_to_ros") {}
+  explicit InManager(const std::string& node, std::string type) : CameraTest(node), type_(std::move(type)) {}
 
   bool load() {
     nodelet::NodeletLoad request;
     request.request.name = node_name;
-    request.request.type = "trk_bridge/TrkToRos";
+    request.request.type = type_;
     request.request.remap_source_args = {"/diagnostics"};
     request.request.remap_target_args = {diagnostics.topic()};
     EXPECT_TRUE(::ros::service::waitForService("/manager/load_nodelet", ::ros::Duration(deadline.count())));
@@ -77,9 +79,22 @@ class InManager : public CameraTest {
     request.request.name = node_name;
     return ::ros::service::call("/manager/unload_nodelet", request) && request.response.success;
   }
+
+ private:
+  std::string type_;
 };
 
-TEST_F(InManager, PublishesUntilItIsUnloadedAndCanBeLoadedAgain) {
+class TrkToRosInManager : public InManager {
+ protected:
+  TrkToRosInManager() : InManager("trk_to_ros", "trk_bridge/TrkToRos") {}
+};
+
+class RosToTrkInManager : public InManager {
+ protected:
+  RosToTrkInManager() : InManager("ros_to_trk", "trk_bridge/RosToTrk") {}
+};
+
+TEST_F(TrkToRosInManager, PublishesUntilItIsUnloadedAndCanBeLoadedAgain) {
   // Loading it again needs the port that unloading has to free.
   const ReservedPort reserved;
   set("source", reserved.url());
@@ -98,9 +113,26 @@ TEST_F(InManager, PublishesUntilItIsUnloadedAndCanBeLoadedAgain) {
   }
 }
 
-TEST_F(InManager, LoadingFailsWhenItCannotStart) {
+TEST_F(TrkToRosInManager, LoadingFailsWhenItCannotStart) {
   set("sorce", any_udp_port);
   EXPECT_FALSE(load());
+}
+
+TEST_F(RosToTrkInManager, SendsUntilItIsUnloaded) {
+  const PlainSocket receiver;
+  set("sinks", std::vector<std::string>{"udp://127.0.0.1:" + std::to_string(receiver.port())});
+  auto publisher = ::ros::NodeHandle().advertise<trk_bridge::CameraParams>(name_space + "/params", 10);
+  trk_bridge::CameraParams message;
+  ros1::to_msg(test::params(7), message);
+  ASSERT_TRUE(load());
+  std::optional<std::string> sent;
+  ASSERT_TRUE(eventually([&] {
+    publisher.publish(message);
+    sent = receiver.receive(std::chrono::milliseconds(10));
+    return sent.has_value();
+  }));
+  EXPECT_EQ(*sent, datagram(test::params(7)));
+  ASSERT_TRUE(unload());
 }
 
 }  // namespace

@@ -161,8 +161,8 @@ TEST_F(Markers, OfALensThatIsTooWideToBeDrawnAreNotThereAndWhyIsTold) {
   wide.fov = 0.05;  // mm, of a chip of 8.8 mm
   tracker->send(wide);
   EXPECT_TRUE(eventually([&] { return action(name + "/frustum") == Marker::DELETE; }));
-  EXPECT_TRUE(diagnostics.tells(status_name(name), diagnostic_msgs::DiagnosticStatus::WARN,
-                                "no markers: the image reaches farther than 89 degrees off the optical axis"));
+  EXPECT_TRUE(diagnostics.reports(status_name(name), diagnostic_msgs::DiagnosticStatus::WARN,
+                                  "no markers: the image reaches farther than 89 degrees off the optical axis"));
   EXPECT_EQ(infos[name]->messages.size(), 2u) << "the lens is one all the same";
 }
 

@@ -15,7 +15,7 @@ void NodeProcessTest::start() {
 
 ::testing::AssertionResult NodeProcessTest::starts() {
   start();
-  auto told = tells_of(camera);
+  auto told = reports_on(camera);
   if (!told) {
     node->signal(SIGKILL);
     told << "; it said: " << node->rest_of_err();

@@ -12,11 +12,11 @@ namespace trk_bridge::test {
 
 class NodeProcessTest : public CameraTest {
  protected:
-  /// The node bears the name of its program.
+  /// The node has the name of its program.
   explicit NodeProcessTest(const std::string& of_program);
 
   void start();
-  /// Starts it and waits until it has told the state of its camera.
+  /// Starts it and waits until it has reported the state of its camera.
   ::testing::AssertionResult starts();
   /// Expects it to end with 1 at once and returns what it said.
   std::string refusal();

@@ -126,14 +126,14 @@ class FromParams : public RosToTrkTest {
 
 TEST_F(FromParams, WhatNeedsNoChangeGoesOutAsItCame) {
   ASSERT_NO_FATAL_FAILURE(open({receiver.url()}));
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::STALE, "no messages on " + name_space + "/params"));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::STALE, "no messages on " + name_space + "/params"));
   auto record = params(1000, 7);
   record.euler.pan = 30.1;
   record.k1 = 1e-4 / 3;
   publish(record);
   ASSERT_TRUE(eventually([&] { return receiver.is_at(1000); }));
   EXPECT_EQ(receiver.params.back(), record);
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "no constants yet"));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "no constants yet"));
   EXPECT_TRUE(diagnostics.becomes(status_name(receiver.url()), "sent", "1"));
 }
 
@@ -159,7 +159,7 @@ TEST_F(FromParams, APresetIsTheReceiversFormatAndLeavesOutAnIdThatItCannotTake) 
   publish(params(1, 7));
   ASSERT_TRUE(eventually([&] { return receiver.is_at(1); }));
   EXPECT_EQ(receiver.params.back().id, 0u);
-  EXPECT_TRUE(diagnostics.tells(status_name(receiver.url()), DiagnosticStatus::OK, "id 5 is left out"));
+  EXPECT_TRUE(diagnostics.reports(status_name(receiver.url()), DiagnosticStatus::OK, "id 5 is left out"));
 }
 
 TEST_F(FromParams, OrderAndCountersOfABurstAreKept) {
@@ -318,7 +318,7 @@ class FromTf : public RosToTrkTest {
 
 TEST_F(FromTf, NothingIsSentWithoutTfOrALensAndItIsToldWhy) {
   ASSERT_NO_FATAL_FAILURE(open());
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::STALE, "nothing sent yet: tf: "));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::STALE, "nothing sent yet: tf: "));
   EXPECT_TRUE(eventually([&] {
     broadcast(camera, 1);
     const auto* status = diagnostics.find(status_name());
@@ -327,8 +327,8 @@ TEST_F(FromTf, NothingIsSentWithoutTfOrALensAndItIsToldWhy) {
   auto fisheye = info();
   fisheye.distortion_model = "equidistant";
   info_publisher.publish(fisheye);
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::STALE,
-                                "camera_info is refused: distortion_model must be plumb_bob or rational_polynomial"));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::STALE,
+                                  "camera_info is refused: distortion_model must be plumb_bob or rational_polynomial"));
   receiver.take();
   EXPECT_TRUE(receiver.params.empty());
   info_publisher.publish(info());
@@ -346,7 +346,7 @@ TEST_F(FromTf, StaleTfIsNeverSentAgain) {
   })) << "the last pose came out";
   const auto sets = receiver.params.size();
   EXPECT_TRUE(diagnostics.becomes(status_name(), "sets", std::to_string(sets)));
-  EXPECT_TRUE(diagnostics.tells(status_name(), DiagnosticStatus::WARN, "tf is stale, its newest pose is of "));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "tf is stale, its newest pose is of "));
   receiver.take();
   EXPECT_EQ(receiver.params.size(), sets);
   for (std::size_t i = 0; i < sets; ++i) {

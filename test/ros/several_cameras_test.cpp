@@ -3,6 +3,7 @@
 
 #include "fixture.h"
 #include "free_slot.h"
+#include "node_process.h"
 #include "program.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"
@@ -31,7 +32,7 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
   TransformRecorder frame_one("/tf", "crane1"), frame_two("/tf", "crane2"), frame_three("/tf", "pedestal_head");
   TransformRecorder optical("/tf_static", "pedestal_optical");
   ASSERT_TRUE(starts("pedestal"));
-  ASSERT_TRUE(tells_of("crane1"));
+  ASSERT_TRUE(reports_on("crane1"));
 
   Tracker tracker(port("crane1"));
   auto sink = endpoints::open_sink(slot);
@@ -57,12 +58,13 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
   EXPECT_TRUE(sink->close());
 }
 
-class FromFile : public TrkToRosTest {
+class AtTheEndOfATake : public NodeProcessTest {
  protected:
+  AtTheEndOfATake() : NodeProcessTest(TRK_TO_ROS) {}
   const TemporaryDirectory folder;
 };
 
-TEST_F(FromFile, ATakeIsPlayedToItsEndAndTheNodeLivesOn) {
+TEST_F(AtTheEndOfATake, TheNodeLivesOnUntilItIsInterrupted) {
   const std::string path = folder / "take.trk";
   {
     auto sink = endpoints::open_sink("file:" + path);
@@ -73,11 +75,16 @@ TEST_F(FromFile, ATakeIsPlayedToItsEndAndTheNodeLivesOn) {
   set("source", "file:" + path + "?time=now");
   Recorder<trk_bridge::CameraParams> params(name_space + "/params");
   ASSERT_TRUE(starts());
-  EXPECT_TRUE(diagnostics.tells(status_name(), diagnostic_msgs::DiagnosticStatus::OK, "ended"));
+  EXPECT_TRUE(diagnostics.reports(status_name(), diagnostic_msgs::DiagnosticStatus::OK, "ended"));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "received", "50"));
   ASSERT_TRUE(eventually([&] { return !params.messages.empty() && params.messages.back().counter == 50; }));
-  EXPECT_TRUE(::ros::ok()) << "the end of a take is not that of the node";
+  interrupted();
 }
+
+class FromFile : public TrkToRosTest {
+ protected:
+  const TemporaryDirectory folder;
+};
 
 TEST_F(FromFile, AFaultyTakeIsRefusedWithItsLine) {
   const std::string path = folder / "faulty.trk";

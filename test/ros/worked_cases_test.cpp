@@ -7,14 +7,13 @@
 #include <trk_bridge/CameraParams.h>
 
 #include "fixture.h"
+#include "same_camera.h"
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/wire/format.h"
 #include "vectors.h"
 
 namespace trk_bridge::test {
 namespace {
-
-double turn_apart(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
 
 class WorkedCases : public TrkToRosTest, public ::testing::WithParamInterface<wire::Encoding> {
  protected:
@@ -76,10 +75,10 @@ class WorkedCases : public TrkToRosTest, public ::testing::WithParamInterface<wi
     near(m.z, e["z"].GetDouble());
     // Pan and roll are one rotation where the camera looks straight up or down.
     if (std::abs(std::abs(e["tilt"].GetDouble()) - 90) > 1e-3) {
-      EXPECT_LT(turn_apart(m.pan, e["pan"].GetDouble()), 1e-7);
-      EXPECT_LT(turn_apart(m.roll, e["roll"].GetDouble()), 1e-7);
+      EXPECT_LT(degrees_apart(m.pan, e["pan"].GetDouble()), 1e-7);
+      EXPECT_LT(degrees_apart(m.roll, e["roll"].GetDouble()), 1e-7);
     }
-    EXPECT_LT(turn_apart(m.tilt, e["tilt"].GetDouble()), 1e-7);
+    EXPECT_LT(degrees_apart(m.tilt, e["tilt"].GetDouble()), 1e-7);
     near(m.fov, expect["image_distance_mm"].GetDouble());
     near(m.center_x, expect["center_shift_mm"][0].GetDouble());
     near(m.center_y, expect["center_shift_mm"][1].GetDouble());

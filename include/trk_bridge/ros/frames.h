@@ -19,6 +19,9 @@ struct CameraFrames {
   std::string optical;  ///< x right, y down, z forward (REP 103): a static child of `camera`
 };
 
+/// Where nothing else is given: `studio`, the camera's name, the name and "_optical".
+CameraFrames default_frames(const std::string& camera_name);
+
 /// A pose as tf has it: translation in m and a unit quaternion with w >= 0, so that equal rotations give equal
 /// messages. With `studio_T_camera` it is the transform of parent studio frame and child camera frame; both are z-up
 /// as REP 103 wants them up, the camera looking along its y axis.

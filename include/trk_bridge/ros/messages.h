@@ -17,12 +17,14 @@ namespace trk_bridge::ros1 {
 void to_msg(const wire::CameraParams& params, trk_bridge::CameraParams& message);
 void to_msg(const wire::CameraConstants& constants, trk_bridge::CameraConstants& message);
 
-/// Size, model, D, K, R = identity, P = [K|0]; no binning, no region of interest. Allocates only when `message` is new.
+/// Size, model, D, K, R = identity, P = [K|0]; no binning, no region of interest. Allocates only when `message` is new
+/// or its model changes to a longer one.
 void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& message);
 
-/// Nanoseconds since 1970 UTC as a ROS time. 0, which ROS takes for "no time", where it cannot hold them (1970 to
-/// 2106).
+/// Nanoseconds since 1970 UTC as a ROS time; 0, which is ROS's "no time", for times before 1970 or after 2106.
 ::ros::Time to_time(std::int64_t nanoseconds) noexcept;
+/// Nanoseconds since 1970 UTC; 0 for ROS's "no time".
+std::int64_t from_time(const ::ros::Time& time) noexcept;
 
 /// The way back, field by field. Headers are not looked at.
 wire::CameraParams from_msg(const trk_bridge::CameraParams& message);

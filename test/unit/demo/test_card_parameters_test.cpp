@@ -14,7 +14,7 @@ using ::testing::Not;
 
 std::string refusal(const XmlRpc::XmlRpcValue& tree) {
   try {
-    (void)read_parameters(tree, "crane");
+    (void)read_test_card_parameters(tree, "crane");
   } catch (const ros1::ParameterError& error) {
     return error.what();
   }
@@ -22,7 +22,7 @@ std::string refusal(const XmlRpc::XmlRpcValue& tree) {
 }
 
 TEST(TestCardParameters, NoneAreNeeded) {
-  const auto parameters = read_parameters({}, "crane");
+  const auto parameters = read_test_card_parameters({}, "crane");
   EXPECT_EQ(parameters.rate, 25);
   EXPECT_EQ(parameters.studio_frame, "studio");
   EXPECT_EQ(parameters.optical_frame, "crane_optical");
@@ -40,7 +40,7 @@ TEST(TestCardParameters, AreRead) {
   tree["depth"] = 2;
   tree["height"] = 2.5;
   tree["spacing"] = 0.5;
-  const auto parameters = read_parameters(tree, "crane");
+  const auto parameters = read_test_card_parameters(tree, "crane");
   EXPECT_EQ(parameters.rate, 5);
   EXPECT_EQ(parameters.studio_frame, "stage");
   EXPECT_EQ(parameters.optical_frame, "camera_optical");

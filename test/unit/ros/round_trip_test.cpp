@@ -74,7 +74,7 @@ std::optional<Sent> sent(const Case& c, const std::optional<bridge::OutgoingSet>
   if (!set || !set->constants) return std::nullopt;
   test::Gate gate;
   gate.open();
-  bridge::OutletWriter outlet(std::make_unique<test::GatedSink>(gate, "sink"), form_of(c), {true, true});
+  bridge::OutletWriter outlet(std::make_unique<test::GatedSink>(gate, "sink"), form_of(c), bridge::Feed::one_camera);
   outlet.write(*set->constants);
   outlet.write(set->params);
   if (gate.constants().empty() || gate.params().empty()) return std::nullopt;

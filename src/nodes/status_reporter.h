@@ -1,0 +1,36 @@
+// The diagnostics of one camera, input or sink: what changed since they were last asked for.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "base/clock.h"
+#include "bridge/status.h"
+#include "finding_log.h"
+
+namespace trk_bridge::nodes {
+
+/// `Report` is one of those that bridge::findings() and bridge::fill() compare. One thread at a time.
+template <typename Report>
+class StatusReporter {
+ public:
+  /// Lines of the log begin with `subject`. The first rates count from here.
+  explicit StatusReporter(std::string subject) : log_(std::move(subject)) { last_.time = base::steady_now(); }
+
+  /// Findings of a kind that was not met before go to the log, too. `options` are what findings() of this report needs.
+  template <typename... Options>
+  bridge::Status status(Report now, const Options&... options) {
+    const auto found = bridge::findings(now, last_, options...);
+    bridge::Status status;
+    bridge::fill(status, found, now, last_);
+    log_.write(found);
+    last_ = std::move(now);
+    return status;
+  }
+
+ private:
+  Report last_;
+  FindingLog log_;
+};
+
+}  // namespace trk_bridge::nodes
