@@ -17,8 +17,8 @@ add_library(trk_bridge_options INTERFACE)
 target_compile_options(trk_bridge_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
   $<$<BOOL:${TRK_BRIDGE_WERROR}>:-Werror>)
 
-# trk_bridge_library(NAME SOURCE... [EXPORT_AS ROOM] [PUBLIC LIB...] [PRIVATE LIB...]): a layer, shared and installed.
-# With EXPORT_AS it is the target trk_bridge::ROOM, for other projects as well.
+# trk_bridge_library(TARGET SOURCE... [EXPORT_AS NAME] [PUBLIC LIB...] [PRIVATE LIB...]): a room's library, shared and
+# installed. With EXPORT_AS it is the target trk_bridge::NAME, for other projects as well.
 function(trk_bridge_library name)
   cmake_parse_arguments(ARG "" "EXPORT_AS" "PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} SHARED ${ARG_UNPARSED_ARGUMENTS})

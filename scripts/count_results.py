@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Sums a ctest run of this project to one line, "N passed, N failed", and exits 1 if anything failed.
 
-Usage: count_results.py BUILD [STEP...]. Tests that catkin runs leave a JUnit file of their cases in BUILD/test_results; every other
-test of ctest counts as one case. A test that failed without a failed case (it crashed, or left no file) counts as one, too,
-as does each STEP, the name of something else that failed. That no test ran at all is a failure.
+Usage: count_results.py BUILD [STEP...]. Tests that catkin runs leave a JUnit file of their cases in BUILD/test_results;
+every other test of ctest counts as one case. A test that failed without a failed case (it crashed, or left no file)
+counts as one, too, as does each STEP, the name of something else that failed. That no test ran at all is a failure.
 """
 
 import pathlib

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Prints a line a second of a camera that came back from trk, and a summary at the end.
 
-Beside what the camera sends into ROS it tells how far that is from what the crane did: ros_to_trk says on `sent` which
-tf time every counter was told of, trk_to_ros says with `params` which counter a pose has. Exits 1 when nothing, or not
+Beside what the camera sends into ROS it prints how far that is from what the crane did: ros_to_trk publishes on `sent`
+which tf time every counter belongs to, trk_to_ros on `params` which counter a pose has. Exits 1 when nothing, or not
 everything of a camera (params, CameraInfo, tf, poses to compare), arrived.
 """
 

@@ -1,8 +1,6 @@
-#include <limits>
 #include <map>
 #include <ostream>
 #include <system_error>
-#include <vector>
 
 #include <ros/message_traits.h>
 #include <rosbag/bag.h>
@@ -25,20 +23,28 @@
 namespace trk_bridge::bag {
 namespace {
 
-std::string sound(const tl::expected<std::string, std::string>& parsed, const char* option, const std::string& value) {
-  if (!parsed) throw BagError(std::string(option) + " = " + ros1::shown(value) + ": " + parsed.error());
-  return *parsed;
+[[noreturn]] void refuse(const char* option, const std::string& value, const std::string& why) {
+  throw BagError(std::string(option) + " = " + value + ": " + why);
+}
+
+const std::string& name_of(const TakeToBagOptions& options) {
+  if (const auto sound = ros1::check_camera_name(options.camera); !sound) {
+    refuse("--camera", ros1::shown(options.camera), sound.error());
+  }
+  return options.camera;
 }
 
 /// As trk_to_ros names and checks them.
 ros1::CameraFrames frames_of(const TakeToBagOptions& options) {
   const auto frame = [](const char* option, const std::string& value) {
-    return sound(ros1::parse_frame(value), option, value);
+    const auto sound = ros1::parse_frame(value);
+    if (!sound) refuse(option, ros1::shown(value), sound.error());
+    return *sound;
   };
-  ros1::CameraFrames frames;
+  ros1::CameraFrames frames = ros1::default_frames(options.camera);
   frames.studio = frame("--studio-frame", options.studio_frame);
-  frames.camera = frame("--camera-frame", options.camera_frame.value_or(options.camera));
-  frames.optical = frame("--optical-frame", options.optical_frame.value_or(options.camera + "_optical"));
+  frames.camera = frame("--camera-frame", options.camera_frame.value_or(frames.camera));
+  frames.optical = frame("--optical-frame", options.optical_frame.value_or(frames.optical));
   for (const auto& [one, other] :
        {std::pair(&frames.camera, &frames.studio), std::pair(&frames.optical, &frames.studio),
         std::pair(&frames.optical, &frames.camera)}) {
@@ -48,9 +54,8 @@ ros1::CameraFrames frames_of(const TakeToBagOptions& options) {
 }
 
 bridge::CameraPipeline pipeline_of(const TakeToBagOptions& options) {
-  (void)sound(ros1::parse_camera_name(options.camera), "--camera", options.camera);
   if (!ros1::field_rate_range.contains(options.field_rate)) {
-    throw BagError("--field-rate = " + ros1::shown(options.field_rate) + ": must be " + ros1::field_rate_range.text());
+    refuse("--field-rate", ros1::shown(options.field_rate), "must be " + ros1::field_rate_range.text());
   }
   bridge::CameraOptions camera;
   camera.format = options.format;
@@ -61,7 +66,7 @@ bridge::CameraPipeline pipeline_of(const TakeToBagOptions& options) {
 class TakeCamera {
  public:
   explicit TakeCamera(const TakeToBagOptions& options)
-      : name_(options.camera), frames_(frames_of(options)), pipeline_(pipeline_of(options)), messages_(frames_) {
+      : name_(name_of(options)), frames_(frames_of(options)), pipeline_(pipeline_of(options)), messages_(frames_) {
     sample_.sender.kind = transport::SenderKind::file;
   }
 
@@ -82,7 +87,7 @@ class TakeCamera {
   const bridge::CameraStatistics& statistics() const noexcept { return pipeline_.statistics(); }
 
  private:
-  const std::string name_;
+  const std::string name_;  // checked first: the others are named after it
   const ros1::CameraFrames frames_;
   transport::Sample sample_;
   bridge::CameraPipeline pipeline_;

@@ -17,9 +17,8 @@ namespace {
 constexpr const char* help =
     "The bag holds what trk_to_ros publishes of a take, on /NAME/params, /NAME/constants, /NAME/camera_info, /tf and "
     "/tf_static. Without --date or --start it lies on 1970-01-02, because a take does not contain its day. The take "
-    "holds one set of "
-    "parameters for every message of /NAME/params, or for every camera_info with a pose in tf; its time code is that "
-    "of the first stamp in UTC. A bag cut short by a crash gives what it holds.";
+    "holds one set of parameters for every message of /NAME/params, or for every camera_info with a pose in tf; its "
+    "time code is that of the first stamp in UTC. A bag cut short by a crash gives what it holds.";
 
 bool ends_in(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -51,7 +50,7 @@ Command::Command(CLI::App& app) : command_(app.add_subcommand("bag", "Make a bag
   command_
       ->add_option("--field-rate", field_rate_,
                    "Video fields a second (to a bag: 50; to a take: as trk bag recorded it, else 50)")
-      ->check(CLI::Range(1.0, 1000.0))
+      ->check(CLI::Range(ros1::field_rate_range.least, ros1::field_rate_range.most))
       ->type_name("HZ");
   command_
       ->add_option("--format", format_,
@@ -94,9 +93,9 @@ void Command::add_options_to_take() {
   to_take_only_ = {input, id, width, height, optical};
 }
 
-void Command::refuse_options_of(const std::vector<CLI::Option*>& options, const char* way) const {
+void Command::refuse_options_of(const std::vector<CLI::Option*>& options, const char* what) const {
   for (const auto* option : options) {
-    if (option->count() > 0) throw CLI::ValidationError(option->get_name() + " is for the way " + way);
+    if (option->count() > 0) throw CLI::ValidationError(option->get_name() + " is only for making " + what);
   }
 }
 
@@ -112,7 +111,7 @@ cli::ExitCode Command::run() {
 }
 
 cli::ExitCode Command::to_bag(cli::LongRun& run) {
-  refuse_options_of(to_take_only_, "from a bag to a take");
+  refuse_options_of(to_take_only_, "a take of a bag");
   TakeToBagOptions options;
   if (camera_) options.camera = *camera_;
   if (format_) options.format = value_of(ros1::parse_published_format(*format_), "--format");
@@ -129,7 +128,7 @@ cli::ExitCode Command::to_bag(cli::LongRun& run) {
 }
 
 cli::ExitCode Command::to_take(cli::LongRun& run) {
-  refuse_options_of(to_bag_only_, "from a take to a bag");
+  refuse_options_of(to_bag_only_, "a bag of a take");
   if (to_take_options_.camera_frame_is_optical && !camera_frame_) {
     throw CLI::ValidationError("--camera-frame-is-optical: needs --camera-frame, whose axes it describes");
   }

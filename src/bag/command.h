@@ -22,7 +22,7 @@ class Command {
  private:
   void add_options_to_bag();
   void add_options_to_take();
-  void refuse_options_of(const std::vector<CLI::Option*>&, const char* way) const;
+  void refuse_options_of(const std::vector<CLI::Option*>&, const char* what) const;
   cli::ExitCode to_bag(cli::LongRun&);
   cli::ExitCode to_take(cli::LongRun&);
 

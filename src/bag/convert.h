@@ -40,8 +40,9 @@ struct BagToTakeOptions {
   bool overwrite = false;
 };
 
-/// Writes what trk_to_ros would have published of a take, stamped by its time code. Equal takes and options make equal
-/// files. Throws std::runtime_error, and Interrupted, and then leaves nothing.
+/// Writes what trk_to_ros with format:=as_received, or with the format of the options, would have published of a take,
+/// stamped by its time code. Equal takes and options make equal files. Throws std::runtime_error, and Interrupted, and
+/// then leaves nothing.
 void bag_of_take(const std::string& take, const std::string& bag, const TakeToBagOptions&, cli::LongRun&,
                  std::ostream& err);
 

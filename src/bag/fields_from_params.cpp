@@ -89,6 +89,7 @@ Fields fields_from_params(Reader& bag, const std::string& camera, const BagToTak
   Fields fields;
   fields.constants = *converter.outgoing();
   const std::uint32_t id = options.id ? *options.id : common_id(recorded.params);
+  run.end();
   fields.constants.id = options.id ? id : constants_id(fields.constants.id, id, err);
   Omissions omissions;
   run.begin("converting");

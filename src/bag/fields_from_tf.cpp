@@ -11,6 +11,7 @@
 #include <trk_bridge/CameraConstants.h>
 
 #include "bridge/camera_info.h"
+#include "cli/number_text.h"
 #include "fields.h"
 #include "ros/camera_info.h"
 #include "trk_bridge/ros/frames.h"
@@ -125,6 +126,12 @@ void use_chip_options(Recorded& recorded, const BagToTakeOptions& options) {
   constants.image_height = static_cast<std::int32_t>(info.height);
   constants.chip_width = *options.chip_width;
   constants.chip_height = *options.chip_height;
+  if (!camera::check(constants)) {
+    throw BagError("a chip of " + cli::number_text(constants.chip_width) + " x " +
+                   cli::number_text(constants.chip_height) + " mm (--chip-width, --chip-height) and an image of " +
+                   std::to_string(info.width) + " x " + std::to_string(info.height) +
+                   " pixels (camera_info) describe no picture");
+  }
   recorded.constants.use(constants, stamp_of(info));
 }
 

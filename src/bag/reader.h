@@ -14,6 +14,7 @@
 #include <ros/time.h>
 
 #include "cli/long_run.h"
+#include "trk_bridge/ros/messages.h"
 
 namespace rosbag {
 class Bag;
@@ -64,7 +65,7 @@ Message message_of(const RawMessage& message) {
 /// Of a message's header, ns since 1970.
 template <typename Message>
 std::int64_t stamp_of(const Message& message) {
-  return static_cast<std::int64_t>(message.header.stamp.toNSec());
+  return ros1::from_time(message.header.stamp);
 }
 
 /// Open for reading; the file is never written. Not synchronised.

@@ -45,7 +45,6 @@ void take_of_bag(const std::string& bag_path, const std::string& take_path, cons
     const bool from_params = camera.input == Input::params;
     const auto fields = from_params ? fields_from_params(bag, camera.name, options, run, err)
                                     : fields_from_tf(bag, camera.name, options, run, err);
-    run.end();
     if (!bag.damage().empty()) err << "trk: " << bag_path << " is cut short: " << bag.damage() << '\n';
 
     const std::string topic = topic_of(camera.name, from_params ? "params" : "camera_info");

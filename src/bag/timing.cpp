@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "base/time_text.h"
+#include "bridge/diagnostic_text.h"
 #include "cli/number_text.h"
 #include "trk_bridge/base/sequence.h"
 
@@ -26,10 +27,6 @@ std::optional<Number> number_of(const Connection& connection, const char* key) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return number;
-}
-
-double seconds_of(const std::vector<std::int64_t>& stamps) {
-  return static_cast<double>(stamps.back() - stamps.front()) / nanoseconds_per_second;
 }
 
 std::optional<double> by_counters(const Fields& fields) {
@@ -89,8 +86,9 @@ RecordedTiming recorded_timing(const std::vector<Connection>& connections, const
 }
 
 std::optional<double> measured_rate(const Fields& fields) {
-  if (fields.stamps.size() < 2 || seconds_of(fields.stamps) < least_span) return std::nullopt;
-  return fields.has_counters ? by_counters(fields) : by_distances(fields.stamps);
+  const auto& stamps = fields.stamps;
+  if (stamps.size() < 2 || bridge::seconds_between(stamps.front(), stamps.back()) < least_span) return std::nullopt;
+  return fields.has_counters ? by_counters(fields) : by_distances(stamps);
 }
 
 double field_rate_of(std::optional<double> option, std::optional<double> of_bag, std::optional<double> measured,

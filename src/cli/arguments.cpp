@@ -22,7 +22,6 @@ transport::SinkEndpoint sink_from(const std::string& url) {
 std::uint32_t format_from(const std::string& words, const std::string& option) {
   const auto format = wire::format_from_words(words);
   if (!format) throw CLI::ValidationError(option + format.error());
-  if (const auto sound = wire::check_writable(*format); !sound) throw CLI::ValidationError(option + sound.error());
   return *format;
 }
 

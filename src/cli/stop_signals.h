@@ -7,8 +7,8 @@
 
 namespace trk_bridge::cli {
 
-/// While it lives, the first SIGINT or SIGTERM stops `source`, where one is given, and is remembered; the second ends
-/// the process at once. SIGPIPE is ignored, so that a closed pipe is an error of writing. One at a time.
+/// While it lives, SIGINT or SIGTERM stops `source`, where one is given, and is remembered; a second one of the same
+/// kind ends the process at once. SIGPIPE is ignored, so that a closed pipe is an error of writing. One at a time.
 class StopSignals {
  public:
   explicit StopSignals(transport::Source* source = nullptr);

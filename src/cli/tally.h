@@ -5,7 +5,6 @@
 #include <iosfwd>
 #include <map>
 #include <optional>
-#include <utility>
 
 #include "trk_bridge/base/sequence.h"
 #include "trk_bridge/transport/source.h"
@@ -26,8 +25,6 @@ class Tally {
     bool operator()(const Key&, const Key&) const noexcept;
   };
   const std::map<Key, base::Sequence, Less>& cameras() const noexcept { return cameras_; }
-  std::uint64_t params() const noexcept { return params_; }
-  std::uint64_t constants() const noexcept { return constants_; }
 
   /// One line about the source, then one a camera: `trk: id 7 from 192.0.2.7:5000: 100 accepted, 3 lost, …`.
   void summarise(const transport::SourceStatistics&, std::ostream&) const;

@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/time_text.h"
 #include "cli/checked_output.h"
 #include "cli/listen.h"
@@ -94,8 +95,7 @@ cli::ExitCode show_in_lines(transport::Source& source, std::optional<double> sec
   bool is_wanted = true;
   for (bool has_more = true; has_more && is_wanted;) {
     has_more = watch.go_on(lines_period);
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    const std::string time = base::iso_time(std::chrono::nanoseconds(now).count());
+    const std::string time = base::iso_time(base::wall_now());
     for (const auto& line : plain_lines_of(watch.state(), lines_period)) {
       is_wanted = lines.line(time + "  " + line, true) && is_wanted;
     }

@@ -8,8 +8,6 @@
 namespace trk_bridge::programs {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// PAL digital video, a 4:3 chip and blank borders at the sides.
 wire::CameraConstants pal_constants() {
   wire::CameraConstants k;
@@ -31,7 +29,7 @@ camera::Camera camera_at(unsigned index) {
   // Metres, degrees (the field of view is horizontal), millimetres.
   const Swing swings[Motion::moved_parameters] = {
       {0, 3}, {-2, 5}, {1.5, 1}, {0, 90}, {0, 45}, {0, 60}, {45, 40}, {0, k.chip_width / 4}, {0, k.chip_height / 4}};
-  const double phase = 2 * pi * (index % Motion::sets_per_parameter) / (Motion::sets_per_parameter - 1);
+  const double phase = 2 * M_PI * (index % Motion::sets_per_parameter) / (Motion::sets_per_parameter - 1);
   double now[Motion::moved_parameters];
   for (unsigned i = 0; i < Motion::moved_parameters; ++i) now[i] = swings[i].rest;
   const unsigned moved = index / Motion::sets_per_parameter;
@@ -40,7 +38,7 @@ camera::Camera camera_at(unsigned index) {
   camera::Camera camera;
   camera.pose.translation() << now[0], now[1], now[2];
   camera.pose.linear() = camera::rotation_of({now[3], now[4], now[5]});
-  camera.lens.image_distance = k.chip_width / 2 / std::tan(now[6] / 2 * pi / 180);
+  camera.lens.image_distance = k.chip_width / 2 / std::tan(now[6] / 2 * M_PI / 180);
   camera.lens.center_shift = {now[7], now[8]};
   return camera;
 }

@@ -63,7 +63,7 @@ void require(trkError error, const std::string& what) {
   if (error != trkOK) throw std::runtime_error(what + ": " + trkErrorMessage(error));
 }
 
-/// Steps of equal length that do not drift. A signal that StopSignals has met ends the waiting early.
+/// Steps of equal length that do not drift. A signal that StopSignals has caught ends the waiting early.
 class Pace {
  public:
   explicit Pace(std::chrono::nanoseconds step)

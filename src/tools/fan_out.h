@@ -18,11 +18,11 @@ namespace trk_bridge::tools {
 /// time.
 class FanOut {
  public:
-  /// `program` begins every line written to `err`. `source_can_wait`: see OutletOptions::caller_can_wait.
-  FanOut(std::string program, std::ostream& err, bool source_can_wait = false);
+  /// `source_can_wait`: see OutletOptions::caller_can_wait.
+  FanOut(std::ostream& err, bool source_can_wait) : err_(err), source_can_wait_(source_can_wait) {}
 
   /// Opens one more. `defaults` count for what the endpoint does not say. Throws TransportError.
-  void add(const transport::SinkEndpoint&, const transport::SinkForm& defaults = {});
+  void add(const transport::SinkEndpoint&, const transport::SinkForm& defaults);
 
   void write(const wire::CameraParams&);
   void write(const wire::CameraConstants&);
@@ -36,6 +36,8 @@ class FanOut {
   bool is_good() const noexcept { return is_good_; }
   /// Once it is closed: what was sent, a line a sink, and how often each cause came.
   void summarise() const;
+  /// Once it is closed, for what else is to be written there.
+  std::ostream& err() const noexcept { return err_; }
 
   const std::vector<std::unique_ptr<bridge::Outlet>>& outlets() const noexcept { return outlets_; }
 
@@ -44,7 +46,6 @@ class FanOut {
 
   void count(std::size_t sink, const bridge::Loss&);
 
-  const std::string program_;
   std::ostream& err_;
   const bool source_can_wait_;
   std::mutex mutex_;  // of err_, causes_ and is_good_ until it is closed

@@ -1,7 +1,6 @@
 // A received record as one line: JSON for programs, plain text for people.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 

@@ -1,7 +1,6 @@
 #include "relay.h"
 
 #include <map>
-#include <ostream>
 #include <string_view>
 #include <variant>
 
@@ -24,12 +23,12 @@ class Relay final : public cli::Listener {
   void on_malformed(const transport::Reception& reception) override {
     if (malformed_[reception.fault.name()]++ != 0) return;
     sinks_.report("malformed record from " + transport::to_string(reception.sample.sender) + ": " +
-                  describe(reception.fault) + " (told once)");
+                  describe(reception.fault) + " (reported once)");
   }
 
-  cli::ExitCode finish(const transport::SourceStatistics& source, cli::Ending ending, std::ostream& err) {
+  cli::ExitCode finish(const transport::SourceStatistics& source, cli::Ending ending) {
     sinks_.close();
-    const cli::ExitCode ended = cli::report_end(tally_, source, ending, err);
+    const cli::ExitCode ended = cli::report_end(tally_, source, ending, sinks_.err());
     sinks_.summarise();
     return sinks_.is_good() ? ended : cli::exit_failed;
   }
@@ -42,10 +41,10 @@ class Relay final : public cli::Listener {
 
 }  // namespace
 
-cli::ExitCode relay(transport::Source& source, FanOut& sinks, std::ostream& err) {
+cli::ExitCode relay(transport::Source& source, FanOut& sinks) {
   Relay relay(sinks);
   const cli::Ending ending = cli::listen(source, relay);
-  return relay.finish(source.statistics(), ending, err);
+  return relay.finish(source.statistics(), ending);
 }
 
 }  // namespace trk_bridge::tools

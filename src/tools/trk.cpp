@@ -1,6 +1,5 @@
 // trk: one tool over endpoints.
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,6 +71,12 @@ class DumpCommand {
   DumpOptions options_;
 };
 
+/// Throws where an id would go to a receiver that takes none; the error is the id between the texts.
+void check_id(const transport::SinkForm& form, const std::string& before, const std::string& after) {
+  if (form.sends_id || form.id.value_or(0) == 0) return;
+  throw CLI::ValidationError(before + std::to_string(*form.id) + after + " sends no id; only 0 is allowed");
+}
+
 class RelayCommand {
  public:
   explicit RelayCommand(CLI::App& app)
@@ -102,29 +107,25 @@ class RelayCommand {
     for (const auto& url : sink_urls_) to.push_back(checked(cli::sink_from(url)));
 
     const auto source = from.open(default_field_rate);
-    FanOut sinks("trk", std::cerr, from.can_wait);
+    FanOut sinks(std::cerr, from.can_wait);
     for (const auto& endpoint : to) sinks.add(endpoint, form_);
     const cli::StopSignals signals(source.get());
     std::cerr << "trk: reading " << source->name() << '\n';
     for (const auto& outlet : sinks.outlets()) std::cerr << "trk: writing " << outlet->name() << '\n';
-    return relay(*source, sinks, std::cerr);
+    return relay(*source, sinks);
   }
 
  private:
   void follow(const endpoints::Preset& preset) {
     form_.format = preset.format;
     form_.sends_id = preset.sends_id;
-    if (!preset.sends_id && form_.id.value_or(0) != 0) {
-      throw CLI::ValidationError("--id " + std::to_string(*form_.id) + ": the preset " + preset.name +
-                                 " sends no id; only 0 is allowed");
-    }
+    check_id(form_, "--id ", ": the preset " + preset.name);
   }
   /// A sink may have an id, or a preset without ids, of its own.
   transport::SinkEndpoint checked(transport::SinkEndpoint endpoint) const {
-    const auto form = transport::with_defaults(endpoint.form, form_);
-    if (form.sends_id || form.id.value_or(0) == 0) return endpoint;
-    throw CLI::ValidationError("endpoint \"" + endpoint.url + "\": id " + std::to_string(*form.id) +
-                               " with a preset that sends no id; only 0 is allowed");
+    check_id(transport::with_defaults(endpoint.form, form_), "endpoint \"" + endpoint.url + "\": id ",
+             " with a preset that");
+    return endpoint;
   }
 
   CLI::App* command_;

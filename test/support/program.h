@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -19,8 +20,8 @@
 
 namespace trk_bridge::test {
 
-/// Its standard input is empty. Whoever destroys a running one kills it, and it is told to end when the thread that
-/// started it does.
+/// Its standard input is empty. Whoever destroys a running one kills it; it gets SIGTERM when the thread that started
+/// it ends.
 class Program {
  public:
   explicit Program(std::vector<std::string> words) : words_(std::move(words)) {
@@ -122,5 +123,14 @@ class Program {
   pid_t pid_ = -1;
   Stream out_, err_;
 };
+
+/// The port in "… udp port N …", the next line of its standard error.
+inline std::uint16_t port_of(Program& program) {
+  const std::string line = program.err_line().value_or("");
+  const std::string before = "udp port ";
+  const std::size_t at = line.find(before);
+  if (at == std::string::npos) throw std::runtime_error("no port in \"" + line + "\"");
+  return static_cast<std::uint16_t>(std::stoi(line.substr(at + before.size())));
+}
 
 }  // namespace trk_bridge::test

@@ -94,7 +94,11 @@ class BagTest : public ::testing::Test {
 /// A bag as somebody else writes it.
 class SomeBag {
  public:
-  explicit SomeBag(std::string path) : path_(std::move(path)) { bag_.open(path_, rosbag::bagmode::Write); }
+  explicit SomeBag(std::string path, rosbag::CompressionType compression = rosbag::compression::Uncompressed)
+      : path_(std::move(path)) {
+    bag_.open(path_, rosbag::bagmode::Write);
+    bag_.setCompression(compression);
+  }
   template <typename Message>
   void put(const std::string& topic, double seconds, const Message& message) {
     bag_.write(topic, ::ros::Time(seconds), message);

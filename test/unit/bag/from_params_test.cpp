@@ -147,6 +147,24 @@ TEST_F(FromParams, ATakeHoldsOneId) {
   EXPECT_EQ(to_take(path, options).params.at(1).id, 3u);
 }
 
+TEST_F(FromParams, AWarningReplacesTheProgressOfReading) {
+  for (std::uint64_t fields = 20'000; err.str().find("trk: reading") == std::string::npos; fields *= 2) {
+    ASSERT_LT(fields, 10'000'000u) << "however long it takes to read, no progress is shown";
+    SomeBag many(directory / "many.bag", rosbag::compression::BZ2);
+    many.put("/crane/constants", 99, constants_message(5));
+    for (std::uint64_t i = 0; i < fields; ++i) {
+      const double stamp = 100 + static_cast<double>(i) / 50;
+      many.put("/crane/params", stamp, params_message(some_params(i, 7), stamp));
+    }
+    err.str("");
+    cli::LongRun terminal{err, /*is_terminal=*/true};
+    BagToTakeOptions options;
+    options.overwrite = true;
+    take_of_bag(many.closed(), directory / "back.trk", options, terminal, err);
+  }
+  EXPECT_THAT(err.str(), HasSubstr("%\r\033[Ktrk: the constants have id 5, the parameters 7"));
+}
+
 TEST_F(FromParams, WhatATakeCannotHoldIsLeftOutAndReported) {
   put_constants();
   put(counted(1, 3));

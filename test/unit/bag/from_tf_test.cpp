@@ -1,10 +1,12 @@
 // Takes out of recordings of tf and camera_info.
 #include <cmath>
+#include <limits>
 
 #include <sensor_msgs/CameraInfo.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "fixture.h"
+#include "same_camera.h"
 #include "trk_bridge/camera/calibration.h"
 #include "trk_bridge/camera/camera.h"
 #include "trk_bridge/ros/frames.h"
@@ -13,8 +15,6 @@ namespace trk_bridge::bag {
 namespace {
 
 using testing::HasSubstr;
-
-double degrees_apart(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
 
 /// A crane: the column turns, the head sits on a fixed arm, the camera looks where the head does.
 class FromTf : public BagTest {
@@ -136,6 +136,25 @@ TEST_F(FromTf, WithoutConstantsTheChipHasToBeSet) {
   EXPECT_THAT(refusal(bag.closed()), HasSubstr("set --chip-width MM and --chip-height MM"));
 }
 
+TEST_F(FromTf, SizesThatDescribeNoPictureAreNamed) {
+  put_arm();
+  put_tf(100.0, 0);
+  put_tf(100.2, 0);
+  auto info = info_at(100.1);
+  info.width = 0;
+  bag.put("/cam/camera_info", 100.1, info);
+  EXPECT_THAT(refusal(bag.closed(), with_chip()),
+              HasSubstr("some.bag: a chip of 9.59 x 5.39 mm (--chip-width, --chip-height) and an image of 0 x 1080 "
+                        "pixels (camera_info) describe no picture"));
+
+  SomeBag other(directory / "other.bag");
+  other.put("/cam/camera_info", 100.1, info_at(100.1));
+  other.put("/tf", 100.1, tf2_msgs::TFMessage());
+  auto options = with_chip();
+  options.chip_height = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(refusal(other.closed(), options), HasSubstr("a chip of 9.59 x inf mm"));
+}
+
 TEST_F(FromTf, AModelThatTrkCannotExpressIsNamed) {
   put_arm();
   put_tf(100.0, 0);
@@ -154,7 +173,8 @@ TEST_F(FromTf, EightCoefficientsOfPlumbBobAreRefused) {
   info.D.resize(8);
   bag.put("/cam/camera_info", 100.1, info);
   EXPECT_THAT(refusal(bag.closed(), with_chip()), HasSubstr("no field is left"));
-  EXPECT_THAT(err.str(), HasSubstr("'plumb_bob' and 8 coefficients: D must have 4 or 5 coefficients with plumb_bob"));
+  EXPECT_THAT(err.str(),
+              HasSubstr("'plumb_bob' and 8 coefficients: D must have 0, 4 or 5 coefficients with plumb_bob"));
 }
 
 TEST_F(FromTf, BinningAndRegionOfInterestDoNotChangeTheLens) {
@@ -186,7 +206,7 @@ TEST_F(FromTf, ALongRecordingStartsAndEndsAsItWas) {
   const auto take = to_take(bag.closed(), with_chip());
   ASSERT_EQ(take.params.size(), 3000u);
   for (std::size_t i = 0; i < take.params.size(); ++i) {
-    ASSERT_LT(degrees_apart(take.params[i].euler.pan, 0.1 * static_cast<double>(i) + 0.05), 1e-5) << i;
+    ASSERT_LT(test::degrees_apart(take.params[i].euler.pan, 0.1 * static_cast<double>(i) + 0.05), 1e-5) << i;
   }
 }
 

@@ -1,4 +1,5 @@
-// What trk_to_ros would have published, as rosbag's own library reads it; and the way back to the same take.
+// What trk_to_ros with format:=as_received would have published, as rosbag's own library reads it; and the way back to
+// the same take.
 #include <filesystem>
 #include <map>
 
@@ -181,18 +182,14 @@ TEST_F(ToBag, ExistingFilesAreReplacedOnlyWhenAsked) {
 TEST_F(ToBag, WrongOptionsAreNamedAndNothingStays) {
   const auto take = take_of(some_fields(3));
   const auto refused = [&](const TakeToBagOptions& options) {
-    try {
-      to_bag(take, options);
-    } catch (const std::runtime_error& error) {
-      EXPECT_FALSE(std::filesystem::exists(directory / "a.bag"));
-      EXPECT_FALSE(std::filesystem::exists(directory / "a.bag.part"));
-      return std::string(error.what());
-    }
-    return std::string("no error");
+    std::string error = test::error_of<std::runtime_error>([&] { to_bag(take, options); });
+    EXPECT_FALSE(std::filesystem::exists(directory / "a.bag"));
+    EXPECT_FALSE(std::filesystem::exists(directory / "a.bag.part"));
+    return error;
   };
   TakeToBagOptions options;
   options.camera = "no name";
-  EXPECT_THAT(refused(options), HasSubstr("'no name'"));
+  EXPECT_THAT(refused(options), HasSubstr("--camera = 'no name'"));
   options = {};
   options.optical_frame = "/optical";
   EXPECT_THAT(refused(options), HasSubstr("--optical-frame = '/optical': must be a tf frame"));

@@ -18,13 +18,6 @@ using test::Program;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-std::uint16_t port_of(Program& program) {
-  const std::string line = program.err_line().value_or("");
-  const std::size_t at = line.find("udp port ");
-  if (at == std::string::npos) throw std::runtime_error("no port in \"" + line + "\"");
-  return static_cast<std::uint16_t>(std::stoi(line.substr(at + 9)));
-}
-
 TEST(TrkPresets, ListsNameWordsAndQuirks) {
   Program presets({TRK_TOOL, "presets"});
   const std::string list = presets.rest_of_out();
@@ -82,7 +75,7 @@ Received relayed_to(const std::string& preset) {
   return received;
 }
 
-TEST(TrkRelay, TellsAReceiverWhatItsPresetSays) {
+TEST(TrkRelay, SendsAReceiverWhatItsPresetSays) {
   const Received received = relayed_to("orad");
   EXPECT_EQ(received.params.format, 0x2BCU);
   EXPECT_EQ(received.params.id, 3U);

@@ -74,7 +74,7 @@ TEST(JsonLine, HasTheDocumentsNamesForConstants) {
   }
 }
 
-TEST(JsonLine, TellsArrivalExactly) {
+TEST(JsonLine, HasTheExactArrival) {
   JsonLine line;
   EXPECT_THAT(std::string(line.of(sample_of(wire::CameraParams{}))), HasSubstr("\"arrival\":1700000000.123456789,"));
 }
@@ -96,7 +96,7 @@ TEST(JsonLine, CountersAreWholeToTheLast) {
   EXPECT_EQ(json["id"].GetUint(), params.id);
 }
 
-TEST(PlainLine, TellsUnitsOfTheFormat) {
+TEST(PlainLine, NamesTheUnitsOfTheFormat) {
   wire::CameraParams params;
   params.id = 7;
   params.counter = 1234;

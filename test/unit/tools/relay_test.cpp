@@ -14,6 +14,7 @@
 #include "file/take.h"
 #include "gated_sink.h"
 #include "memory_feed.h"
+#include "same_camera.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/wire/format.h"
@@ -37,9 +38,9 @@ class RelayTest : public testing::Test {
   void add_file(const std::string& path) { add(endpoints::parse_sink("file:" + path).value()); }
   cli::ExitCode run(const transport::SinkForm& defaults = {}, bool source_can_wait = false) {
     feed.put(Event::ended);
-    FanOut sinks("trk", err, source_can_wait);
+    FanOut sinks(err, source_can_wait);
     for (const auto& endpoint : to) sinks.add(endpoint, defaults);
-    return relay(*feed.source(), sinks, err);
+    return relay(*feed.source(), sinks);
   }
 
   test::MemoryFeed feed;
@@ -53,8 +54,6 @@ transport::SinkForm form_of(std::uint32_t format) {
   form.format = format;
   return form;
 }
-
-double degrees_apart(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
 
 TEST_F(RelayTest, EveryWorkedCaseBecomesTheCanonicalCameraInEuler) {
   const auto cases = test::read_jsonl("camera_cases.jsonl");
@@ -78,9 +77,9 @@ TEST_F(RelayTest, EveryWorkedCaseBecomesTheCanonicalCameraInEuler) {
     near(params.euler.x, expected["euler"]["x"].GetDouble());
     near(params.euler.y, expected["euler"]["y"].GetDouble());
     near(params.euler.z, expected["euler"]["z"].GetDouble());
-    EXPECT_LT(degrees_apart(params.euler.pan, expected["euler"]["pan"].GetDouble()), 1e-7) << "case " << i;
-    EXPECT_LT(degrees_apart(params.euler.tilt, expected["euler"]["tilt"].GetDouble()), 1e-7) << "case " << i;
-    EXPECT_LT(degrees_apart(params.euler.roll, expected["euler"]["roll"].GetDouble()), 1e-7) << "case " << i;
+    EXPECT_LT(test::degrees_apart(params.euler.pan, expected["euler"]["pan"].GetDouble()), 1e-7) << "case " << i;
+    EXPECT_LT(test::degrees_apart(params.euler.tilt, expected["euler"]["tilt"].GetDouble()), 1e-7) << "case " << i;
+    EXPECT_LT(test::degrees_apart(params.euler.roll, expected["euler"]["roll"].GetDouble()), 1e-7) << "case " << i;
     near(params.fov, expected["image_distance_mm"].GetDouble());
     near(params.center_x, expected["center_shift_mm"][0].GetDouble());
     near(params.center_y, expected["center_shift_mm"][1].GetDouble());
@@ -151,7 +150,7 @@ TEST_F(RelayTest, TheFakeChipAgreesWithTheFormatSent) {
   EXPECT_NEAR(sent.fake_chip_height, 6.6 * 720 / 700, 1e-12);
 }
 
-TEST_F(RelayTest, WhatNeedsConstantsIsRefusedWithoutThemOnceToldAndCounted) {
+TEST_F(RelayTest, WhatNeedsConstantsIsRefusedWithoutThemReportedOnceAndCounted) {
   auto params = test::params(1);
   params.format |= wire::field_of_view;
   for (params.counter = 1; params.counter <= 3; ++params.counter) feed.put(params);
@@ -163,11 +162,11 @@ TEST_F(RelayTest, WhatNeedsConstantsIsRefusedWithoutThemOnceToldAndCounted) {
   EXPECT_EQ(records.size(), 2u);
   EXPECT_THAT(err.str(), HasSubstr("cannot be passed on as \"euler"));
   EXPECT_THAT(err.str(), HasSubstr("not passed on: 3 records"));
-  const std::string told = "(told once)";
-  EXPECT_EQ(err.str().find(told), err.str().rfind(told));
+  const std::string once = "(reported once)";
+  EXPECT_EQ(err.str().find(once), err.str().rfind(once));
 }
 
-TEST_F(RelayTest, ConstantsWithoutAPictureReplaceNothingAndAreNotReexpressed) {
+TEST_F(RelayTest, ConstantsWithoutAPictureMakeTheOnesBeforeInvalid) {
   auto params = test::params(1);
   params.format |= wire::field_of_view;
   feed.put(test::constants(720));
@@ -192,7 +191,7 @@ TEST_F(RelayTest, ASinkThatRefusesDoesNotKeepTheOthersFromIt) {
   EXPECT_EQ(gate.records().size(), 4u);
   EXPECT_TRUE(gate.is_closed() && torn.is_closed());
   for (const std::string name : {"torn wire", "torn disk"}) {
-    EXPECT_THAT(err.str(), HasSubstr("trk: " + name + ": the system refused: Network is unreachable (told once)"));
+    EXPECT_THAT(err.str(), HasSubstr("trk: " + name + ": the system refused: Network is unreachable (reported once)"));
     EXPECT_THAT(err.str(), HasSubstr("trk: " + name + ": 4 times"));
   }
 }
@@ -285,7 +284,7 @@ TEST_F(RelayTest, ConstantsOfTooManyIdsAreRefused) {
   add_gate();
   EXPECT_EQ(run(), cli::exit_failed);
   EXPECT_EQ(gate.count(), 256u);
-  EXPECT_THAT(err.str(), HasSubstr("constants of more than 256 ids came; no more are taken"));
+  EXPECT_THAT(err.str(), HasSubstr("constants of more than 256 ids came; more are not accepted"));
   EXPECT_THAT(err.str(), HasSubstr("not passed on: 44 records: "));
 }
 
@@ -312,7 +311,7 @@ TEST_F(RelayTest, AFileWithoutConstantsIsNone) {
   EXPECT_THAT(err.str(), HasSubstr("no constants came, so nothing was kept"));
 }
 
-TEST_F(RelayTest, MalformedRecordsAreToldOncePerReason) {
+TEST_F(RelayTest, MalformedRecordsAreReportedOncePerReason) {
   for (int i = 0; i < 5; ++i) feed.put_malformed(wire::Reason::bad_magic);
   feed.put_malformed(wire::Reason::truncated);
   add_gate();

@@ -17,7 +17,7 @@ camera::Camera camera_of(const file::Take& take, std::size_t field) {
   return *decoded;
 }
 
-TEST(Takes, ThreeFormatsTellOneCamera) {
+TEST(Takes, ThreeFormatsAreOneCamera) {
   const auto read = [](const std::string& name) {
     return file::read_take(test::data_path("field/takes/" + name + ".trk"));
   };

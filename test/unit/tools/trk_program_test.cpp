@@ -18,14 +18,6 @@ namespace {
 using test::Program;
 using testing::HasSubstr;
 
-/// The port in "… udp port N …" of the program's first line.
-std::uint16_t port_of(Program& program) {
-  const std::string line = program.err_line().value_or("");
-  const std::size_t at = line.find("udp port ");
-  if (at == std::string::npos) throw std::runtime_error("no port in \"" + line + "\"");
-  return static_cast<std::uint16_t>(std::stoi(line.substr(at + 9)));
-}
-
 /// A line of `trk dump --json` back as a record.
 wire::CameraParams params_of_json(const rapidjson::Value& v) {
   wire::CameraParams p;
@@ -56,7 +48,7 @@ rapidjson::Document parsed(const std::string& text) {
   return document;
 }
 
-TEST(TrkDump, TellsTheFieldsBinaryDatagramsBitForBit) {
+TEST(TrkDump, PrintsTheFieldsBinaryDatagramsBitForBit) {
   Program dump({TRK_TOOL, "dump", "udp://127.0.0.1:0?layout=identified", "--json"});
   const std::uint16_t port = port_of(dump);
   const test::PlainSocket tracker;
