@@ -46,15 +46,18 @@ int main(int argc, char** argv) {
   }
   setvbuf(stdout, NULL, _IOLBF, BUFSIZ);
   while (sets < wanted && error != trkFailed) {
-    if (trkNetReadConstants(handle, &constants) == trkOK) print_constants(&constants);
+    const trkError constants_error = trkNetReadConstants(handle, &constants);
+    if (constants_error == trkOK) print_constants(&constants);
     error = trkNetReadParams(handle, &params);
     if (error == trkOK) {
       print_params(&params);
       ++sets;
-    } else if (error == trkInvalidVersion) {
-      fprintf(stderr, "something that is not trk has arrived\n");
     } else if (error == trkUnavailable) {
       wait_a_little();
+    }
+    /* Reported once, by whichever call comes first. */
+    if (constants_error == trkInvalidVersion || error == trkInvalidVersion) {
+      fprintf(stderr, "something that is not trk has arrived\n");
     }
   }
   trkNetClose(handle);

@@ -1,8 +1,11 @@
 // The programs that the documentation shows, each in its own process, with the trk tool at the other end.
+#include <csignal>
+
 #include <gmock/gmock.h>
 
 #include "free_slot.h"
 #include "program.h"
+#include "repeating.h"
 #include "reserved_port.h"
 #include "temporary_directory.h"
 #include "udp.h"
@@ -29,6 +32,20 @@ TEST(Examples, read_udp_prints_what_trk_sends) {
   EXPECT_THAT(out, HasSubstr(" degrees [euler studio_z_up image_distance consider_blank shift_on_chip]\n"));
   EXPECT_EQ(reader.rest_of_err(), "");
   EXPECT_EQ(reader.wait(), 0);
+}
+
+TEST(Examples, read_udp_reports_what_is_not_trk) {
+  const ReservedPort port;
+  const PlainSocket sender;
+  Program reader({READ_UDP, port.text(), "100000"});
+  {
+    const Repeating sending(50, [&] { sender.send(datagram(params(1)), "127.0.0.1", port.number()); });
+    ASSERT_TRUE(reader.out_line());
+  }
+  sender.send("garbage", "127.0.0.1", port.number());
+  EXPECT_EQ(reader.err_line(), "something that is not trk has arrived");
+  reader.signal(SIGTERM);
+  EXPECT_EQ(reader.wait(), -SIGTERM);
 }
 
 TEST(Examples, read_udp_says_that_a_port_is_taken) {
