@@ -1,6 +1,7 @@
 #include "trk_bridge/base/sequence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -17,12 +18,23 @@ struct Step {
   std::uint64_t by;
 };
 
-// Two counters of at most 4 bytes are compared on the circle of 4-byte counters, so that a wrap is a step of one.
+// Counters with fewer bits than 64, which begin again at 0 behind the largest.
+constexpr std::array<unsigned, 3> short_counters{16, 31, 32};
+
+/// Whether `to` comes behind `from`, or a little later, on a circle of `size` counts whose end lies between them.
+constexpr bool wraps(std::uint64_t from, std::uint64_t to, std::uint64_t size) noexcept {
+  return from < size && from >= size - Sequence::window && to < Sequence::window;
+}
+
 Step step_between(std::uint64_t from, std::uint64_t to) noexcept {
-  constexpr std::uint64_t largest = std::numeric_limits<std::uint32_t>::max();
-  if (from > largest || to > largest) return to > from ? Step{true, to - from} : Step{false, from - to};
-  const std::uint64_t ahead = (to - from) & largest;
-  return ahead <= largest / 2 ? Step{true, ahead} : Step{false, largest + 1 - ahead};
+  for (const unsigned bits : short_counters) {
+    const std::uint64_t size = std::uint64_t{1} << bits;
+    if (wraps(from, to, size)) return {true, size - from + to};
+    if (wraps(to, from, size)) return {false, size - to + from};
+  }
+  const std::uint64_t ahead = to - from;
+  constexpr std::uint64_t half = std::uint64_t{1} << 63U;
+  return ahead < half ? Step{true, ahead} : Step{false, from - to};
 }
 
 std::uint64_t checked_second(double field_rate) {
@@ -33,38 +45,64 @@ std::uint64_t checked_second(double field_rate) {
   return static_cast<std::uint64_t>(std::max(1.0, std::round(field_rate)));
 }
 
-}  // namespace
-
-Sequence::Sequence(double field_rate)
-    : second_(checked_second(field_rate)),
-      restart_ahead_(static_cast<std::uint64_t>(std::max(1.0, std::round(restart_ahead * field_rate)))) {}
-
-Order Sequence::judge(std::uint64_t counter) noexcept {
-  if (!newest_) {
-    begin_at(counter);
-    return Order::first;
-  }
-  const Step step = step_between(*newest_, counter);
-  if (step.by == 0) {
-    ++counts_.duplicates;
-    return Order::duplicate;
-  }
-  return step.ahead ? judge_ahead(counter, step.by) : judge_back(counter, step.by);
+/// A counter that goes back by less, and does so again within as many records, runs in a circle. A second of 60 Hz is
+/// one also where the field rate is 25.
+std::uint64_t largest_circle(std::uint64_t second) noexcept {
+  constexpr std::uint64_t least = 128;
+  return std::max(least, 2 * second);
 }
 
-void Sequence::begin_at(std::uint64_t counter) noexcept {
+}  // namespace
+
+Sequence::Sequence(double field_rate, CounterUse use)
+    : use_(use),
+      second_(checked_second(field_rate)),
+      restart_ahead_(static_cast<std::uint64_t>(std::max(1.0, std::round(restart_ahead * field_rate)))),
+      since_return_(largest_circle(second_)) {
+  if (use == CounterUse::ignore) counts_.state = CounterState::ignored;
+}
+
+Order Sequence::judge(std::uint64_t counter, std::uint64_t fingerprint) noexcept {
+  Order order = use_ == CounterUse::ignore ? Order::uncounted : order_of(counter, fingerprint);
+  if (use_ == CounterUse::automatic) {
+    watch(order);
+    if (order != Order::duplicate) {
+      fingerprints_[next_fingerprint_] = fingerprint;
+      next_fingerprint_ = (next_fingerprint_ + 1) % std::min<std::uint64_t>(second_, window);
+    }
+    if (counts_.state == CounterState::stands && !is_new(order)) order = Order::uncounted;
+  }
+  switch (order) {
+    case Order::duplicate:
+      ++counts_.duplicates;
+      break;
+    case Order::late:
+      ++counts_.late;
+      break;
+    case Order::restarted:
+      ++counts_.restarts;
+      [[fallthrough]];
+    default:
+      ++counts_.accepted;
+  }
+  return order;
+}
+
+Order Sequence::order_of(std::uint64_t counter, std::uint64_t fingerprint) noexcept {
+  if (!newest_) return begin_at(counter, Order::first);
+  const Step step = step_between(*newest_, counter);
+  return step.ahead && step.by > 0 ? ahead(counter, step.by) : back(counter, step.by, fingerprint);
+}
+
+Order Sequence::begin_at(std::uint64_t counter, Order verdict) noexcept {
   newest_ = counter;
   span_ = 0;
   came_.reset();
-  ++counts_.accepted;
+  return verdict;
 }
 
-Order Sequence::judge_ahead(std::uint64_t counter, std::uint64_t by) noexcept {
-  if (by > restart_ahead_) {
-    begin_at(counter);
-    ++counts_.restarts;
-    return Order::restarted;
-  }
+Order Sequence::ahead(std::uint64_t counter, std::uint64_t by) noexcept {
+  if (by > restart_ahead_) return begin_at(counter, Order::restarted);
   newest_ = counter;
   span_ += by;
   if (by > window) {
@@ -74,27 +112,49 @@ Order Sequence::judge_ahead(std::uint64_t counter, std::uint64_t by) noexcept {
     came_.set(by - 1);
   }
   counts_.lost += by - 1;
-  ++counts_.accepted;
   return Order::next;
 }
 
-Order Sequence::judge_back(std::uint64_t counter, std::uint64_t by) noexcept {
-  if (by > second_) {
-    begin_at(counter);
-    ++counts_.restarts;
-    return Order::restarted;
+Order Sequence::back(std::uint64_t counter, std::uint64_t by, std::uint64_t fingerprint) noexcept {
+  if (use_ == CounterUse::strict) {
+    if (by > second_) return begin_at(counter, Order::restarted);
+    return came(by) ? Order::duplicate : fill(by);
   }
+  if (is_known(fingerprint)) return Order::duplicate;
+  if (by == 0) {
+    note_return(CounterState::stands);
+    return Order::uncounted;
+  }
+  if (by <= late_reach && !came(by) && lates_ < lates_allowed) return fill(by);
+  if (by < largest_circle(second_)) note_return(CounterState::circles);
+  return begin_at(counter, Order::restarted);
+}
+
+void Sequence::note_return(CounterState state) noexcept {
+  if (since_return_ < largest_circle(second_)) counts_.state = std::max(counts_.state, state);
+  since_return_ = 0;
+}
+
+Order Sequence::fill(std::uint64_t by) noexcept {
   if (by <= window) {
-    if (came_.test(by - 1)) {
-      ++counts_.duplicates;
-      return Order::duplicate;
-    }
     came_.set(by - 1);
     // What is older than the first of this run was never counted as lost.
     if (by <= span_) --counts_.lost;
   }
-  ++counts_.late;
   return Order::late;
+}
+
+bool Sequence::is_known(std::uint64_t fingerprint) const noexcept {
+  return std::find(fingerprints_.begin(), fingerprints_.end(), fingerprint) != fingerprints_.end();
+}
+
+void Sequence::watch(Order order) noexcept {
+  repeats_ = order == Order::duplicate ? repeats_ + 1 : 0;
+  lates_ = order == Order::late ? lates_ + 1 : 0;
+  steady_ = order == Order::next ? steady_ + 1 : 0;
+  if (since_return_ < largest_circle(second_)) ++since_return_;
+  if (repeats_ > repeats_allowed) counts_.state = CounterState::stands;
+  if (steady_ > largest_circle(second_)) counts_.state = CounterState::counts;
 }
 
 }  // namespace trk_bridge::base

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "trk_bridge/base/sequence.h"
 #include "trk_bridge/wire/format.h"
 #include "trk_bridge/wire/record.h"
 
@@ -16,6 +17,8 @@ struct CameraOptions {
   std::optional<std::uint32_t> format = wire::euler;
   double delay = 0;                                ///< s, taken off every stamp
   std::optional<wire::CameraConstants> constants;  ///< until the sender's own ones come
+  base::CounterUse counter = base::CounterUse::automatic;
+  double failover = 0.5;  ///< s of silence after which another sender may follow; see SenderLock
   bool publish_tf = true;
   bool publish_camera_info = true;
 };

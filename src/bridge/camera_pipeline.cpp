@@ -2,7 +2,10 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <variant>
+
+#include "trk_bridge/wire/fields.h"
 
 namespace trk_bridge::bridge {
 namespace {
@@ -14,10 +17,32 @@ std::chrono::nanoseconds nanoseconds_of(double seconds) {
   return std::chrono::nanoseconds(std::llround(seconds * 1e9));
 }
 
+/// For base::Sequence: of all that a record says. 64 bits of FNV-1a, a number at a time.
+std::uint64_t fingerprint_of(const wire::CameraParams& params) noexcept {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  const auto add = [&hash](const wire::Field&, const auto& number) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof number);
+    hash = (hash ^ bits) * 0x100000001b3U;
+    hash ^= hash >> 32U;
+  };
+  if (has(params.format, wire::euler)) {
+    wire::for_each_euler_field(add, params.euler);
+  } else {
+    for (const double& number : params.matrix) add({}, number);
+  }
+  wire::for_each_params_field(add, params);
+  return hash;
+}
+
 }  // namespace
 
 CameraPipeline::CameraPipeline(const CameraOptions& options, double field_rate)
-    : options_(options), sequence_(field_rate), stamper_(nanoseconds_of(options.delay)), converter_(options.format) {
+    : options_(options),
+      lock_(nanoseconds_of(options.failover)),
+      sequence_(field_rate, options.counter),
+      stamper_(nanoseconds_of(options.delay)),
+      converter_(options.format) {
   if (options.constants && converter_.use(*options.constants) != ConstantsChange::unsound) {
     statistics_.constants = ConstantsOrigin::parameter;
   }
@@ -39,10 +64,15 @@ CameraUpdate CameraPipeline::initial() const noexcept {
 CameraUpdate CameraPipeline::process(const transport::Sample& sample, std::int64_t now) noexcept {
   // std::visit would do, but can throw as far as a compiler knows.
   if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) return process(*params, sample, now);
-  return process(*std::get_if<wire::CameraConstants>(&sample.record), sample.arrival);
+  return process(*std::get_if<wire::CameraConstants>(&sample.record), sample, now);
 }
 
-CameraUpdate CameraPipeline::process(const wire::CameraConstants& constants, std::int64_t arrival) noexcept {
+CameraUpdate CameraPipeline::process(const wire::CameraConstants& constants, const transport::Sample& sample,
+                                     std::int64_t now) noexcept {
+  if (lock_.claim(sample.sender, now) == SenderLock::Claim::foreign) {
+    ignore(sample.sender);
+    return {};
+  }
   const bool own = !options_.id || constants.id == *options_.id;
   const auto origin = own ? ConstantsOrigin::own : ConstantsOrigin::any_camera;
   if (origin < statistics_.constants) return {};
@@ -54,13 +84,25 @@ CameraUpdate CameraPipeline::process(const wire::CameraConstants& constants, std
   statistics_.constants = origin;
   if (change == ConstantsChange::unchanged) return {};
   CameraUpdate update;
-  update.stamp = stamper_.unordered(arrival);
+  update.stamp = stamper_.unordered(sample.arrival);
   update.constants = *converter_.outgoing();
   return update;
 }
 
 CameraUpdate CameraPipeline::process(const wire::CameraParams& params, const transport::Sample& sample,
                                      std::int64_t now) noexcept {
+  const SenderLock::Claim claim = lock_.claim(sample.sender, now);
+  if (claim == SenderLock::Claim::foreign) {
+    ignore(sample.sender);
+    return {};
+  }
+  const camera::Converted converted = converter_.convert(params);
+  const auto reason = camera::why_no_camera(converted, sample.has_lens);
+  if (!reason) {
+    follow(sample.sender, now);
+  } else if (claim == SenderLock::Claim::free) {
+    return drop(*reason);
+  }
   if (!is_new(params, sample)) return {};
   statistics_.last_new = now;
   statistics_.sender = sample.sender;
@@ -68,8 +110,7 @@ CameraUpdate CameraPipeline::process(const wire::CameraParams& params, const tra
   statistics_.has_lens = sample.has_lens;
   if (!sample.has_lens) ++statistics_.without_lens;
 
-  const camera::Converted converted = converter_.convert(params);
-  if (const auto reason = camera::why_no_camera(converted, sample.has_lens)) return drop(*reason);
+  if (reason) return drop(*reason);
   const auto stamped = stamp(sample.arrival);
   if (!stamped) return {};
 
@@ -84,12 +125,28 @@ CameraUpdate CameraPipeline::process(const wire::CameraParams& params, const tra
   return update;
 }
 
+void CameraPipeline::ignore(const transport::Sender& sender) noexcept {
+  lock_.note_foreign(sender);
+  ++statistics_.foreign;
+  statistics_.foreign_sender = sender;
+}
+
+void CameraPipeline::follow(const transport::Sender& sender, std::int64_t now) noexcept {
+  if (lock_.holder() && lock_.claim(sender, now) == SenderLock::Claim::free) {
+    ++statistics_.failovers;
+    statistics_.silent_sender = *lock_.holder();
+    sequence_.forget_newest();
+  }
+  lock_.take(sender, now);
+  statistics_.ignores_ports = lock_.ignores_ports();
+}
+
 bool CameraPipeline::is_new(const wire::CameraParams& params, const transport::Sample& sample) noexcept {
   if (statistics_.params > 0 && params.id != statistics_.last_id) ++statistics_.id_changes;
   ++statistics_.params;
   statistics_.last_id = params.id;
   statistics_.last_format = params.format;
-  const bool accepted = !sample.has_counter || base::is_new(sequence_.judge(params.counter));
+  const bool accepted = !sample.has_counter || base::is_new(sequence_.judge(params.counter, fingerprint_of(params)));
   if (!sample.has_counter) ++statistics_.without_counter;
   statistics_.sequence = sequence_.counts();
   statistics_.sequence.accepted += statistics_.without_counter;
@@ -105,6 +162,8 @@ std::optional<std::int64_t> CameraPipeline::stamp(std::int64_t arrival) noexcept
   }
   statistics_.held_stamps = stamper_.held();
   statistics_.stamp_ahead = stamper_.ahead();
+  statistics_.clock_steps = stamper_.steps();
+  statistics_.clock_step = stamper_.last_step();
   return stamp;
 }
 

@@ -1,4 +1,4 @@
-// One camera's way in: its records judged, converted, stamped and calibrated.
+// One camera's way in: its senders and records judged, converted, stamped and calibrated.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include "camera_options.h"
 #include "constants_origin.h"
+#include "sender_lock.h"
 #include "stamper.h"
 #include "trk_bridge/base/sequence.h"
 #include "trk_bridge/camera/calibration.h"
@@ -19,7 +20,7 @@ namespace trk_bridge::bridge {
 /// What became of a camera's records so far. Trivially copyable. "New" are those that base::Sequence takes for new, and
 /// all of protocols without a counter.
 struct CameraStatistics {
-  std::uint64_t params = 0;               ///< parameter records for this camera, of any order
+  std::uint64_t params = 0;               ///< parameter records of the sender that is followed, of any order
   base::SequenceCounts sequence;          ///< `accepted` counts all new ones
   std::uint64_t without_counter = 0;      ///< of the new ones, those of a protocol without a counter
   std::uint64_t without_lens = 0;         ///< likewise without a lens: of these only the pose is published
@@ -29,18 +30,24 @@ struct CameraStatistics {
   std::uint64_t without_camera_info = 0;  ///< new ones without a CameraInfo although it is wanted; `info_reason`
   std::uint64_t bad_constants = 0;        ///< constants that leave no picture: ignored
   std::uint64_t id_changes = 0;           ///< how often a record had another id than the one before
+  std::uint64_t foreign = 0;              ///< records of other senders than `sender`: ignored; `foreign_sender`
+  std::uint64_t failovers = 0;            ///< how often another sender was followed; the one before: `silent_sender`
   std::uint64_t held_stamps = 0;          ///< see Stamper
   std::int64_t stamp_ahead = 0;           ///< ns, see Stamper
+  std::uint64_t clock_steps = 0;          ///< see Stamper
+  std::int64_t clock_step = 0;            ///< ns, see Stamper
   std::uint32_t last_id = 0;
   std::uint32_t last_format = 0;  ///< as received
   ConstantsOrigin constants = ConstantsOrigin::none;
   camera::CameraReason drop_reason{}, withhold_reason{}, info_reason{};
-  bool has_lens = true;          ///< the last new one had one
-  bool has_camera_info = false;  ///< the last published one had one
-  double fit_residual = 0;       ///< pixels, of the last CameraInfo
-  transport::Sender sender;      ///< of the last new one, as are those below
-  const char* encoding = "";     ///< transport::Sample::origin
-  std::int64_t last_new = 0;     ///< steady clock, ns; valid once sequence.accepted > 0
+  bool has_lens = true;                             ///< the last new one had one
+  bool has_camera_info = false;                     ///< the last published one had one
+  double fit_residual = 0;                          ///< pixels, of the last CameraInfo
+  bool ignores_ports = false;                       ///< see SenderLock
+  transport::Sender foreign_sender, silent_sender;  ///< valid once foreign > 0, failovers > 0
+  transport::Sender sender;                         ///< of the last new one, as are those below
+  const char* encoding = "";                        ///< transport::Sample::origin
+  std::int64_t last_new = 0;                        ///< steady clock, ns; valid once sequence.accepted > 0
 };
 
 /// What one sample gives to publish, all of one stamp.
@@ -70,8 +77,11 @@ class CameraPipeline {
   const CameraStatistics& statistics() const noexcept { return statistics_; }
 
  private:
-  CameraUpdate process(const wire::CameraConstants&, std::int64_t arrival) noexcept;
+  CameraUpdate process(const wire::CameraConstants&, const transport::Sample&, std::int64_t now) noexcept;
   CameraUpdate process(const wire::CameraParams&, const transport::Sample&, std::int64_t now) noexcept;
+  void ignore(const transport::Sender&) noexcept;
+  /// The sender of a record that is a camera is followed from now on.
+  void follow(const transport::Sender&, std::int64_t now) noexcept;
   bool is_new(const wire::CameraParams&, const transport::Sample&) noexcept;
   std::optional<std::int64_t> stamp(std::int64_t arrival) noexcept;
   void add_lens(const camera::Converted&, CameraUpdate&) noexcept;
@@ -79,6 +89,7 @@ class CameraPipeline {
   CameraUpdate drop(camera::CameraReason) noexcept;
 
   CameraOptions options_;
+  SenderLock lock_;
   base::Sequence sequence_;
   Stamper stamper_;
   camera::Converter converter_;

@@ -24,6 +24,20 @@ std::string fault_text(const ReaderStatistics& reader) {
   return reader.has_fault ? describe(reader.last_fault) : std::string("none");
 }
 
+const char* counter_text(base::CounterState state) {
+  switch (state) {
+    case base::CounterState::counts:
+      return "counts";
+    case base::CounterState::circles:
+      return "begins again every few records";
+    case base::CounterState::stands:
+      return "stands still";
+    case base::CounterState::ignored:
+      return "ignored";
+  }
+  return "";
+}
+
 std::string camera_info_text(const CameraStatistics& camera) {
   if (camera.has_camera_info) return "yes";
   if (!camera.has_lens) return "no: the records have no lens";
@@ -89,6 +103,31 @@ void add_source_findings(std::vector<Finding>& found, const CameraReport& now, c
   }
 }
 
+void add_sender_findings(std::vector<Finding>& found, const CameraReport& now, const CameraReport& before,
+                         const CameraOptions& options) {
+  const auto& camera = now.camera;
+  if (camera.failovers > before.camera.failovers) {
+    found.push_back({Condition::failover, Level::warn,
+                     transport::to_string(camera.silent_sender) + " was silent for " + duration_text(options.failover) +
+                         " or more: " + transport::to_string(camera.sender) + " is followed now",
+                     /*is_event=*/true});
+  }
+  if (camera.foreign > before.camera.foreign) {
+    warn(found, Condition::foreign_sender,
+         "records of a second sender, " + transport::to_string(camera.foreign_sender) +
+             ", are ignored: " + transport::to_string(camera.sender) + " has this camera");
+  }
+  if (camera.ignores_ports) {
+    warn(found, Condition::ports_change,
+         "the sender changes its port with every datagram: senders are told apart by their address alone");
+  }
+  const auto counter = camera.sequence.state;
+  if (counter == base::CounterState::circles || counter == base::CounterState::stands) {
+    warn(found, Condition::uncounted,
+         std::string("the counter ") + counter_text(counter) + ": records are published as they come");
+  }
+}
+
 void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, const CameraReport& before,
                          const CameraOptions& options) {
   const auto& camera = now.camera;
@@ -135,6 +174,10 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
          "the clock stands or stepped back: stamps are " + duration_text(seconds_between(0, camera.stamp_ahead)) +
              " ahead");
   }
+  if (camera.clock_steps > old.clock_steps) {
+    warn(found, Condition::clock_stepped,
+         "the clock went back by " + duration_text(seconds_between(0, camera.clock_step)) + ": stamps follow it");
+  }
 }
 
 }  // namespace
@@ -143,6 +186,7 @@ std::vector<Finding> findings(const CameraReport& now, const CameraReport& befor
                               double field_rate) {
   std::vector<Finding> found{state(now, before, options, field_rate)};
   add_source_findings(found, now, before);
+  add_sender_findings(found, now, before, options);
   add_camera_findings(found, now, before, options);
   return found;
 }
@@ -160,6 +204,9 @@ void fill(Status& status, const std::vector<Finding>& found, const CameraReport&
   status.add("out of order", camera.sequence.late);
   status.add("duplicate", camera.sequence.duplicates);
   status.add("restarts", camera.sequence.restarts);
+  status.add("counter", any ? counter_text(camera.sequence.state) : "none yet");
+  status.add("foreign", camera.foreign);
+  status.add("failovers", camera.failovers);
   status.add("malformed", now.source.malformed);
   status.add("last malformed", fault_text(now.reader));
   status.add("refused senders", now.source.refused);
@@ -181,6 +228,7 @@ void fill(Status& status, const std::vector<Finding>& found, const CameraReport&
   status.add("lens fit residual (px)",
              camera.has_camera_info ? std::to_string(camera.fit_residual) : std::string("none"));
   status.add("stamps held", camera.held_stamps);
+  status.add("clock steps back", camera.clock_steps);
   status.add("last error", now.source.error.empty() ? std::string("none") : now.source.error);
 }
 

@@ -22,6 +22,10 @@ enum class Condition : std::uint8_t {
   constants_only,
   nothing_new,
   counter_stands,
+  uncounted,
+  foreign_sender,
+  failover,
+  ports_change,
   lost,
   malformed,
   refused,
@@ -37,6 +41,7 @@ enum class Condition : std::uint8_t {
   no_camera_info,
   no_markers,
   stamps_held,
+  clock_stepped,
   // of both
   lens_inexact,
   // of ros_to_trk, which shares some more of those above
@@ -57,6 +62,8 @@ struct Finding {
   Condition condition;
   Level level;
   std::string text;
+  /// An event: the log shows each, and not just the first of its kind.
+  bool is_event = false;
 };
 
 /// Adds one that a person should look into.

@@ -8,8 +8,13 @@ std::optional<std::int64_t> Stamper::stamp(std::int64_t arrival) noexcept {
   const std::int64_t wanted = arrival - delay_;
   std::int64_t given = wanted;
   if (newest_ > 0 && given <= newest_) {
-    given = newest_ + least_step;
-    ++held_;
+    if (newest_ - wanted > most_ahead) {
+      last_step_ = newest_ - wanted;
+      ++steps_;
+    } else {
+      given = newest_ + least_step;
+      ++held_;
+    }
   }
   if (!can_be_stamp(given)) return std::nullopt;
   newest_ = given;

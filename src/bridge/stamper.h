@@ -18,13 +18,16 @@ inline constexpr std::int64_t latest_stamp =
   return nanoseconds > 0 && nanoseconds <= latest_stamp;
 }
 
-/// Stamps of one camera: arrival less the tracking system's delay, strictly increasing whatever the clock does. Where
-/// the clock stands or steps back, stamps go on by `least_step` from the newest one until it has caught up.
+/// Stamps of one camera: arrival less the tracking system's delay, strictly increasing. Where the clock stands or steps
+/// back by a little, stamps go on by `least_step` from the newest one until it has caught up. Where that would put them
+/// ahead by more than `most_ahead`, they follow the clock.
 /// Not synchronised, never allocates.
 class Stamper {
  public:
   /// ns; still apart when a stamp is taken for a double of seconds (2.4e-7 s near today's date).
   static constexpr std::int64_t least_step = 1000;
+  /// ns
+  static constexpr std::int64_t most_ahead = 1'000'000'000;
 
   explicit Stamper(std::chrono::nanoseconds delay) noexcept : delay_(delay.count()) {}
 
@@ -38,12 +41,17 @@ class Stamper {
   std::uint64_t held() const noexcept { return held_; }
   /// How far the last stamp is ahead of its arrival less delay, nanoseconds; 0 in order.
   std::int64_t ahead() const noexcept { return ahead_; }
+  /// How often stamps went back with the clock, and how far they did the last time, ns.
+  std::uint64_t steps() const noexcept { return steps_; }
+  std::int64_t last_step() const noexcept { return last_step_; }
 
  private:
   std::int64_t delay_;
   std::int64_t newest_ = 0;
   std::uint64_t held_ = 0;
   std::int64_t ahead_ = 0;
+  std::uint64_t steps_ = 0;
+  std::int64_t last_step_ = 0;
 };
 
 }  // namespace trk_bridge::bridge

@@ -10,15 +10,17 @@ using bridge::Level;
 
 void FindingLog::write(const std::vector<bridge::Finding>& found) {
   for (const auto& finding : found) {
-    if (std::find(written_.begin(), written_.end(), finding.condition) != written_.end()) continue;
-    written_.push_back(finding.condition);
+    if (!finding.is_event) {
+      if (std::find(written_.begin(), written_.end(), finding.condition) != written_.end()) continue;
+      written_.push_back(finding.condition);
+    }
     const std::string line = subject_ + ": " + finding.text;
     switch (finding.level) {
       case Level::error:
         ROS_ERROR_STREAM(line);
         break;
       case Level::warn:
-        ROS_WARN_STREAM(line << " (logged once, then counted in the diagnostics)");
+        ROS_WARN_STREAM(line << (finding.is_event ? "" : " (logged once, then counted in the diagnostics)"));
         break;
       default:
         ROS_INFO_STREAM(line);

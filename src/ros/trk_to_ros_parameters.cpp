@@ -29,6 +29,11 @@ void read_shared(ParameterReader& reader, CameraParameters& camera) {
   reader.parsed("studio_frame", camera.frames.studio, parse_frame);
   reader.parsed("format", options.format, parse_published_format);
   reader.number("delay", options.delay, {0, 60, "seconds"});
+  reader.choice("counter", options.counter,
+                {{"auto", base::CounterUse::automatic},
+                 {"strict", base::CounterUse::strict},
+                 {"ignore", base::CounterUse::ignore}});
+  reader.number("failover", options.failover, {0, 60, "seconds"});
   reader.constants("constants", options.constants);
   reader.flag("publish_tf", options.publish_tf);
   reader.flag("publish_camera_info", options.publish_camera_info);

@@ -3,6 +3,8 @@
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
 
+#include <algorithm>
+
 #include "fixture.h"
 #include "repeating.h"
 #include "reserved_port.h"
@@ -55,6 +57,33 @@ TEST_F(Conditions, DuplicatesAndLateRecordsAreNeverPublishedRestartsAre) {
   for (std::size_t i = 1; i < 6; ++i) {
     EXPECT_GT(transforms->transforms[i].header.stamp, transforms->transforms[i - 1].header.stamp);
   }
+}
+
+TEST_F(Conditions, ASecondSenderIsIgnoredAndNamedUntilTheFirstIsSilent) {
+  ASSERT_NO_FATAL_FAILURE(open());
+  const Tracker second(port());
+  const auto sender = [this](const std::string& key) { return diagnostics.value(status_name(), key); };
+  tracker->send(test::params(1));
+  ASSERT_TRUE(counters_are({1}));
+  ASSERT_TRUE(diagnostics.becomes(status_name(), "received", "1"));
+  const std::string first_address = sender("sender");
+  {
+    std::uint64_t counter = 1;
+    const Repeating both(50, [&] {
+      tracker->send(test::params(++counter));
+      second.send(test::params(1'000'000 + counter));
+    });
+    ASSERT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "are ignored: " + first_address));
+    ASSERT_TRUE(eventually([this] { return params->messages.size() > 20; }));
+    EXPECT_TRUE(std::all_of(params->messages.begin(), params->messages.end(),
+                            [](const auto& message) { return message.counter < 1'000'000; }));
+  }
+  // The first is silent from now on.
+  std::uint64_t counter = 2'000'000;
+  const Repeating alone(50, [&] { second.send(test::params(++counter)); });
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, first_address + " was silent for 0.5 s"));
+  EXPECT_TRUE(eventually([this] { return params->messages.back().counter > 2'000'000; }));
+  EXPECT_NE(sender("sender"), first_address);
 }
 
 TEST_F(Conditions, TheFirstRateIsThatOfTheRecordsSinceTheStart) {

@@ -21,6 +21,7 @@ TEST(Sequence, OnlyNewRecordsAreNews) {
   EXPECT_TRUE(is_new(Order::first));
   EXPECT_TRUE(is_new(Order::next));
   EXPECT_TRUE(is_new(Order::restarted));
+  EXPECT_TRUE(is_new(Order::uncounted));
   EXPECT_FALSE(is_new(Order::duplicate));
   EXPECT_FALSE(is_new(Order::late));
 }
@@ -131,8 +132,8 @@ TEST(Sequence, TheLargestCountersAreNoTrouble) {
   (void)sequence.judge(0xFFFFFFFFFFFFFFFFu);
   EXPECT_EQ(sequence.judge(0xFFFFFFFFFFFFFFFFu), Order::duplicate);
   EXPECT_EQ(sequence.judge(0xFFFFFFFFFFFFFFFEu), Order::late);
-  EXPECT_EQ(sequence.judge(0), Order::restarted);
-  EXPECT_EQ(sequence.judge(0xFFFFFFFFFFFFFFFFu), Order::restarted);
+  EXPECT_EQ(sequence.judge(0), Order::next) << "it wraps";
+  EXPECT_EQ(sequence.judge(0xFFFFFFFFFFFFFFFFu), Order::duplicate);
 }
 
 TEST(Sequence, RemembersAsFarAsItsWindow) {
@@ -153,6 +154,132 @@ TEST(Sequence, AJumpOfTheWholeWindowKeepsTheOneBefore) {
   (void)sequence.judge(100 + Sequence::window);
   EXPECT_EQ(sequence.judge(100), Order::duplicate);
   EXPECT_EQ(sequence.judge(101), Order::late);
+}
+
+TEST(Sequence, CountersOfAnyWidthWrap) {
+  for (const unsigned bits : {16U, 31U, 32U, 64U}) {
+    const std::uint64_t top = bits == 64 ? 0 : std::uint64_t{1} << bits;
+    for (const auto use : {CounterUse::strict, CounterUse::automatic}) {
+      Sequence sequence(50.0, use);
+      std::uint64_t fingerprint = 0;
+      (void)sequence.judge(top - 3, ++fingerprint);
+      EXPECT_EQ(sequence.judge(top - 1, ++fingerprint), Order::next);
+      EXPECT_EQ(sequence.judge(1, ++fingerprint), Order::next) << bits;
+      EXPECT_EQ(sequence.counts().lost, 2u);
+      EXPECT_EQ(sequence.judge(top - 2, ++fingerprint), Order::late) << bits;
+      EXPECT_EQ(sequence.judge(0, ++fingerprint), Order::late);
+      EXPECT_EQ(sequence.counts().lost, 0u);
+    }
+  }
+}
+
+/// Judges as records with contents of their own are judged: equal counters alone are no equal records.
+class Automatic : public ::testing::Test {
+ protected:
+  Order judge(std::uint64_t counter) { return sequence.judge(counter, ++fingerprint_); }
+  /// A camera that does not move: records with equal counters are equal.
+  Order judge_still(std::uint64_t counter) { return sequence.judge(counter, counter + 1'000'000); }
+
+  Sequence sequence{50.0, CounterUse::automatic};
+
+ private:
+  std::uint64_t fingerprint_ = 0;
+};
+
+TEST_F(Automatic, ALateRecordFillsAGapOfAtMost16) {
+  (void)judge(100);
+  (void)judge(120);
+  EXPECT_EQ(judge(104), Order::late);
+  EXPECT_EQ(judge(103), Order::restarted) << "further back than late_reach";
+  EXPECT_EQ(judge(104), Order::next);
+  EXPECT_EQ(sequence.counts().late, 1u);
+}
+
+TEST_F(Automatic, WhatCameBeforeIsADuplicateAndEqualCountersAreARestart) {
+  (void)judge_still(10);
+  (void)judge_still(11);
+  EXPECT_EQ(judge_still(11), Order::duplicate);
+  EXPECT_EQ(judge_still(10), Order::duplicate);
+  EXPECT_EQ(judge(10), Order::restarted);
+  EXPECT_EQ(judge(11), Order::next);
+}
+
+TEST_F(Automatic, ALateRecordThatComesTwiceIsADuplicate) {
+  (void)judge_still(10);
+  (void)judge_still(12);
+  EXPECT_EQ(judge_still(11), Order::late);
+  EXPECT_EQ(judge_still(11), Order::duplicate);
+}
+
+TEST_F(Automatic, ADuplicateOfTheLastSecondIsNoRestart) {
+  for (std::uint64_t counter = 0; counter < 100; ++counter) (void)judge_still(counter);
+  EXPECT_EQ(judge_still(50), Order::duplicate);
+  EXPECT_EQ(judge_still(100), Order::next);
+}
+
+TEST_F(Automatic, ATakeThatIsPlayedAgainIsARestart) {
+  for (int round = 0; round < 3; ++round) {
+    for (std::uint64_t counter = 0; counter < 200; ++counter) EXPECT_TRUE(is_new(judge_still(counter)));
+  }
+  EXPECT_EQ(sequence.counts().restarts, 2u);
+  EXPECT_EQ(sequence.counts().state, CounterState::counts);
+}
+
+TEST_F(Automatic, TooManyLateOnesInARowAreARestart) {
+  (void)judge(10);
+  (void)judge(24);
+  for (std::uint64_t counter = 11; counter < 11 + Sequence::lates_allowed; ++counter) {
+    EXPECT_EQ(judge(counter), Order::late);
+  }
+  EXPECT_EQ(judge(11 + Sequence::lates_allowed), Order::restarted);
+  EXPECT_EQ(judge(12 + Sequence::lates_allowed), Order::next);
+}
+
+TEST_F(Automatic, ACounterThatStandsIsNoticedAndSoIsThatItCountsAgain) {
+  EXPECT_EQ(judge_still(7), Order::first);
+  for (unsigned i = 0; i < Sequence::repeats_allowed; ++i) EXPECT_EQ(judge_still(7), Order::duplicate);
+  EXPECT_EQ(sequence.counts().state, CounterState::counts);
+  EXPECT_EQ(judge_still(7), Order::uncounted) << "the fifth field";
+  EXPECT_EQ(judge_still(7), Order::uncounted);
+  EXPECT_EQ(sequence.counts().state, CounterState::stands);
+  for (std::uint64_t counter = 8; counter < 200; ++counter) EXPECT_EQ(judge_still(counter), Order::next);
+  EXPECT_EQ(sequence.counts().state, CounterState::counts);
+  EXPECT_EQ(judge_still(199), Order::duplicate);
+}
+
+TEST_F(Automatic, ACounterOfFramesTakesBothFieldsOfEach) {
+  for (std::uint64_t i = 0; i < 20; ++i) EXPECT_TRUE(is_new(judge(i / 2))) << i;
+  EXPECT_EQ(sequence.counts().state, CounterState::stands);
+  EXPECT_EQ(sequence.counts().lost, 0u);
+}
+
+TEST_F(Automatic, OneRestartIsNoCircle) {
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    EXPECT_TRUE(is_new(judge(i < 40 ? i : i - 40))) << i;
+    EXPECT_EQ(sequence.counts().state, CounterState::counts);
+  }
+  EXPECT_EQ(sequence.counts().restarts, 1u);
+}
+
+TEST_F(Automatic, ASmallCircleIsNamed) {
+  for (std::uint64_t i = 0; i < 100; ++i) EXPECT_TRUE(is_new(judge(i % 30))) << i;
+  EXPECT_EQ(sequence.counts().state, CounterState::circles);
+  EXPECT_EQ(sequence.counts().lost, 0u);
+}
+
+TEST_F(Automatic, AnotherSenderBegins) {
+  (void)judge(1000);
+  sequence.forget_newest();
+  EXPECT_EQ(judge(995), Order::first);
+  EXPECT_EQ(judge(996), Order::next);
+  EXPECT_EQ(sequence.counts().lost, 0u);
+}
+
+TEST(Sequence, IgnoredCountersSayNothing) {
+  Sequence sequence(50.0, CounterUse::ignore);
+  for (const std::uint64_t counter : {5u, 5u, 3u, 900u, 5u}) EXPECT_EQ(sequence.judge(counter), Order::uncounted);
+  EXPECT_EQ(sequence.counts().accepted, 5u);
+  EXPECT_EQ(sequence.counts().lost + sequence.counts().duplicates + sequence.counts().restarts, 0u);
 }
 
 }  // namespace

@@ -100,6 +100,40 @@ TEST_F(Diagnostics, ACounterThatStandsStillIsNamed) {
   expect(Level::warn, "counter stands still");
 }
 
+TEST_F(Diagnostics, ASecondSenderIsNamedWithTheOneThatIsFollowed) {
+  now.camera.foreign = 50;
+  now.camera.sender = {transport::SenderKind::ipv4, {192, 0, 2, 7}, 5000};
+  now.camera.foreign_sender = {transport::SenderKind::ipv4, {192, 0, 2, 8}, 6000};
+  expect(Level::warn, "records of a second sender, 192.0.2.8:6000, are ignored: 192.0.2.7:5000 has this camera");
+  EXPECT_EQ(value("foreign"), "50");
+}
+
+TEST_F(Diagnostics, AFailoverIsAnEventThatNamesBoth) {
+  now.camera.failovers = 1;
+  now.camera.silent_sender = {transport::SenderKind::ipv4, {192, 0, 2, 7}, 5000};
+  now.camera.sender = {transport::SenderKind::ipv4, {192, 0, 2, 8}, 6000};
+  expect(Level::warn, "192.0.2.7:5000 was silent for 0.5 s or more: 192.0.2.8:6000 is followed now");
+  EXPECT_TRUE(findings(now, before, options, 50)[1].is_event);
+}
+
+TEST_F(Diagnostics, ACounterThatIsNotTrustedIsNamed) {
+  now.camera.sequence.state = base::CounterState::stands;
+  expect(Level::warn, "the counter stands still: records are published as they come");
+  EXPECT_EQ(value("counter"), "stands still");
+  now.camera.sequence.state = base::CounterState::circles;
+  expect(Level::warn, "the counter begins again every few records");
+  now.camera.sequence.state = base::CounterState::ignored;
+  EXPECT_EQ(status().level, Level::ok) << "as the parameter asks";
+}
+
+TEST_F(Diagnostics, AClockThatWentBackIsNamedOnce) {
+  now.camera.clock_steps = 1;
+  now.camera.clock_step = 3600 * second;
+  expect(Level::warn, "the clock went back by 3600.0 s: stamps follow it");
+  before.camera.clock_steps = 1;
+  EXPECT_EQ(status().level, Level::ok);
+}
+
 TEST_F(Diagnostics, AFailedSourceIsAnErrorWithItsReason) {
   now.source.state = SourceState::failed;
   now.source.error = "udp port 7000: the network is down";

@@ -85,6 +85,8 @@ const Wrong wrong_ones[] = {
     {"Queue", [](XmlRpcValue& t) { t["queue_size"] = 0; }, "~queue_size = 0", "must be 1 to 100000"},
     {"Delay", [](XmlRpcValue& t) { t["delay"] = -0.5; }, "~delay = -0.5", "must be 0 to 60 seconds"},
     {"DelayTooLong", [](XmlRpcValue& t) { t["delay"] = 100; }, "~delay = 100", "must be 0 to 60 seconds"},
+    {"Counter", [](XmlRpcValue& t) { t["counter"] = "loose"; }, "~counter = 'loose'", "auto or strict or ignore"},
+    {"Failover", [](XmlRpcValue& t) { t["failover"] = -1; }, "~failover = -1", "must be 0 to 60 seconds"},
     {"Period", [](XmlRpcValue& t) { t["diagnostic_period"] = 0; }, "~diagnostic_period = 0", "more than 0 seconds"},
     {"Frame", [](XmlRpcValue& t) { t["studio_frame"] = "/studio"; }, "~studio_frame = '/studio'", "no leading slash"},
     {"EmptyFrame", [](XmlRpcValue& t) { t["camera_frame"] = ""; }, "~camera_frame = ''", "not empty"},
@@ -96,7 +98,7 @@ const Wrong wrong_ones[] = {
        t["constants"] = constants();
        t["constants"]["image_width"] = 0;
      },
-     "~constants = {", "image"},
+     "~constants = [blank_left:4,", "image"},
     {"MarkersOfNoLens",
      [](XmlRpcValue& t) {
        t["publish_markers"] = true;
