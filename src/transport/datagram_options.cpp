@@ -4,10 +4,17 @@
 #include <utility>
 #include <vector>
 
+#include "interfaces.h"
+
 namespace trk_bridge::transport {
 namespace {
 
 constexpr std::string_view interface_allowed = "an address of this machine or an interface's name";
+
+bool assign_interface(const std::string& value, std::string& to) {
+  to = value;
+  return may_name_interface(value);
+}
 
 bool assign_hosts(const std::string& value, std::vector<std::string>& to) {
   for (std::size_t begin = 0; begin <= value.size();) {
@@ -96,13 +103,14 @@ const std::array<Option<ReceiveSettings>, 3> receive_options{{
     {"allow", "addresses with a comma between",
      [](const std::string& v, ReceiveSettings& s) { return assign_hosts(v, s.allow); }},
     {"interface", interface_allowed,
-     [](const std::string& v, ReceiveSettings& s) { return !(s.interface = v).empty(); }},
+     [](const std::string& v, ReceiveSettings& s) { return assign_interface(v, s.interface); }},
     {"buffer", "bytes from 1 to 1073741823",
      [](const std::string& v, ReceiveSettings& s) { return assign(whole_number(v, 1, 1073741823), s.buffer); }},
 }};
 
 const std::array<Option<SendSettings>, 3> send_options{{
-    {"interface", interface_allowed, [](const std::string& v, SendSettings& s) { return !(s.interface = v).empty(); }},
+    {"interface", interface_allowed,
+     [](const std::string& v, SendSettings& s) { return assign_interface(v, s.interface); }},
     {"ttl", "a whole number from 0 to 255",
      [](const std::string& v, SendSettings& s) { return assign(whole_number(v, 0, 255), s.ttl); }},
     {"constants_period", "seconds from 0 to 86400",

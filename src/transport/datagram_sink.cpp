@@ -3,12 +3,16 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <unordered_map>
 #include <utility>
 
+#include "interfaces.h"
 #include "scheme.h"
 #include "socket.h"
 #include "trk_bridge/transport/source.h"
@@ -31,7 +35,8 @@ Descriptor open_socket_to(const SocketAddress& target, const SendSettings& setti
   Descriptor socket(::socket(target.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket.is_open()) throw TransportError("no socket: " + std::generic_category().message(errno));
   const int fd = socket.get();
-  if (is_broadcast(target)) set_option(fd, SOL_SOCKET, SO_BROADCAST, 1, "broadcast");
+  // Whether it is a broadcast address changes with the interfaces.
+  if (target.family() == AF_INET) set_option(fd, SOL_SOCKET, SO_BROADCAST, 1, "broadcast");
   if (settings.ttl) set_ttl(fd, target, *settings.ttl);
   const bool group = is_multicast(target);
   if (group && target.family() == AF_INET)
@@ -39,12 +44,10 @@ Descriptor open_socket_to(const SocketAddress& target, const SendSettings& setti
   if (group && target.family() == AF_INET6) {
     set_option(fd, IPPROTO_IPV6, IPV6_MULTICAST_LOOP, 1, "multicast to this machine");
   }
-  if (settings.interface.empty()) return socket;
-  if (!group) {
+  if (!settings.interface.empty() && !group) {
     throw TransportError("interface = \"" + settings.interface +
                          "\" is for multicast: for one address the system's routes decide");
   }
-  send_through(fd, target.family(), find_interface(settings.interface));
   return socket;
 }
 
@@ -68,9 +71,15 @@ class DatagramSink final : public Sink {
   DatagramSink(const SendSettings& settings, std::unique_ptr<Encoder> encoder)
       : target_(target_of(settings)),
         socket_(open_socket_to(target_, settings)),
-        name_("udp to " + to_string(sender_of(target_.storage))),
+        interface_(interface_of(settings.host, settings.interface)),
+        name_("udp to " + to_string(sender_of(target_.storage)) + (interface_.empty() ? "" : " through " + interface_)),
         encoder_(std::move(encoder)),
-        period_(period_of(settings)) {}
+        period_(period_of(settings)) {
+    if (interface_.empty()) return;
+    watch_.emplace();
+    follow_interface();
+    watch_->start([this](const InterfaceWatch::Removed&) { return follow_interface_or_wait(); });
+  }
 
   std::string name() const override { return name_; }
 
@@ -84,22 +93,47 @@ class DatagramSink final : public Sink {
   Written put(const wire::CameraParams& params) override;
   Written put(const wire::CameraConstants& constants) override;
   Written finish() override {
+    watch_.reset();
     socket_.close();
     return {};
   }
+  void follow_interface();
+  bool follow_interface_or_wait() noexcept;
   template <typename Record>
   Written send(const Record& record) noexcept;
   Written send_datagram(std::string_view datagram) noexcept;
 
   const SocketAddress target_;
   Descriptor socket_;
+  const std::string interface_;  // that it is tied to; empty: the system's choice
   const std::string name_;
   std::unique_ptr<Encoder> encoder_;
   const steady_clock::duration period_;
   std::unordered_map<std::uint32_t, Remembered> remembered_;  // by id
+
+  std::atomic<bool> has_way_{true};      // the system's own choice, or an interface that can be sent through
+  std::optional<InterfaceWatch> watch_;  // the last one: its thread uses the others
 };
 
+void DatagramSink::follow_interface() {
+  const auto interface = find_interface(interface_);
+  // Without an address the kernel sends IPv4 from 0.0.0.0, which no receiver takes.
+  const bool has_address = interface && (target_.family() != AF_INET || interface->has_ipv4);
+  has_way_ = has_address && send_through(socket_.get(), target_, *interface);
+}
+
+bool DatagramSink::follow_interface_or_wait() noexcept {
+  try {
+    follow_interface();
+    return true;
+  } catch (const TransportError&) {
+    // What was known of the interface still holds as far as anybody can tell.
+    return false;
+  }
+}
+
 Written DatagramSink::send_datagram(std::string_view datagram) noexcept {
+  if (!has_way_) return tl::make_unexpected(SinkFault{SinkReason::no_interface});
   ssize_t written;
   do {
     // Not connected, so that an unreachable receiver does not fail the next datagram.

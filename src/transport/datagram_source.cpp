@@ -95,9 +95,10 @@ Event DatagramSource::too_long(const ReceiveSocket::Datagram& datagram, Receptio
 
 void DatagramSource::complete(SourceStatistics& statistics) const {
   statistics.kernel_drops = socket_->kernel_drops();
-  if (statistics.state == SourceState::waiting) {
-    statistics.waiting_for = "udp port " + std::to_string(socket_->port()) + ": bound, nothing received yet";
-  }
+  if (statistics.state == SourceState::failed) return;
+  std::string why = socket_->why_nothing_can_come();
+  if (why.empty() && statistics.state == SourceState::waiting) why = "bound, nothing received yet";
+  if (!why.empty()) statistics.waiting_for = "udp port " + std::to_string(socket_->port()) + ": " + why;
 }
 
 }  // namespace

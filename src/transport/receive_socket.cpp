@@ -1,6 +1,8 @@
 #include "receive_socket.h"
 
+#include <fcntl.h>
 #include <linux/sock_diag.h>
+#include <sys/epoll.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -18,8 +20,15 @@ namespace {
 
 std::string system_text(int error) { return std::generic_category().message(error); }
 
-std::string describe_place(const ReceiveSettings& settings, const SocketAddress& address) {
-  const std::string port = "udp port " + std::to_string(sender_of(address.storage).number);
+bool is_every_interface(const std::string& host) { return host.empty() || host == "::"; }
+
+SocketAddress address_of(const ReceiveSettings& settings) {
+  if (is_every_interface(settings.host)) return any_ipv6(settings.port);
+  return resolve(settings.host, settings.port).front();
+}
+
+std::string described(const ReceiveSettings& settings, const SocketAddress& address, std::uint16_t port_number) {
+  const std::string port = "udp port " + std::to_string(port_number);
   if (is_multicast(address)) {
     return port + " of group " + settings.host + (settings.interface.empty() ? "" : " through " + settings.interface);
   }
@@ -27,28 +36,16 @@ std::string describe_place(const ReceiveSettings& settings, const SocketAddress&
   return port + " on " + settings.host;
 }
 
-// An IPv6 group of one machine or one link means nothing without the interface.
-void set_zone(SocketAddress& address, const std::string& interface) {
-  if (address.family() != AF_INET6) return;
-  auto& ipv6 = reinterpret_cast<sockaddr_in6&>(address.storage);
-  if (!interface.empty()) ipv6.sin6_scope_id = find_interface(interface).index;
-  const bool narrow = IN6_IS_ADDR_MC_NODELOCAL(&ipv6.sin6_addr) || IN6_IS_ADDR_MC_LINKLOCAL(&ipv6.sin6_addr);
-  if (narrow && ipv6.sin6_scope_id == 0) {
-    throw TransportError("this group is one on each link: interface=ADDR has to say which");
-  }
+std::uint16_t port_in(const SocketAddress& address) {
+  return static_cast<std::uint16_t>(sender_of(address.storage).number);
 }
-
-struct Bound {
-  Descriptor socket;
-  SocketAddress address;
-};
 
 Descriptor open_socket(int family) {
   return Descriptor(::socket(family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
 }
 
-void bind_or_say_why(const Bound& bound, bool shareable) {
-  if (::bind(bound.socket.get(), bound.address.get(), bound.address.length) == 0) return;
+void bind_or_say_why(int fd, const SocketAddress& address, bool shareable) {
+  if (::bind(fd, address.get(), address.length) == 0) return;
   switch (errno) {
     case EADDRINUSE:
       throw TransportError(std::string("the port is in use") +
@@ -56,40 +53,11 @@ void bind_or_say_why(const Bound& bound, bool shareable) {
                                 ? " by a program that does not share it"
                                 : ": the kernel gives a datagram to one reader alone; several readers can share a "
                                   "multicast group or a broadcast address"));
-    case EADDRNOTAVAIL:
-      throw TransportError("no interface has this address");
     case EACCES:
       throw TransportError("this port is for privileged programs");
     default:
       throw TransportError("binding failed: " + system_text(errno));
   }
-}
-
-Bound open_bound(const ReceiveSettings& settings) {
-  Bound bound;
-  const bool every = settings.host.empty() || settings.host == "::";
-  bound.address = every ? any_ipv6(settings.port) : resolve(settings.host, settings.port).front();
-  const bool group = is_multicast(bound.address);
-  if (!settings.interface.empty() && !group) {
-    throw TransportError("interface = \"" + settings.interface +
-                         "\" is for multicast: to hear one interface only, write its address as the host");
-  }
-  if (group) set_zone(bound.address, settings.interface);
-  bound.socket = open_socket(bound.address.family());
-  if (!bound.socket.is_open() && errno == EAFNOSUPPORT && every) {
-    // A machine without IPv6: every interface is every IPv4 interface.
-    bound.address = any_ipv4(settings.port);
-    bound.socket = open_socket(AF_INET);
-  }
-  if (!bound.socket.is_open()) throw TransportError("no socket: " + system_text(errno));
-  const int fd = bound.socket.get();
-  if (bound.address.family() == AF_INET6) set_option(fd, IPPROTO_IPV6, IPV6_V6ONLY, every ? 0 : 1, "IPv6 only");
-  const bool shareable = group || is_broadcast(bound.address);
-  if (shareable) set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1, "sharing the port");
-  bind_or_say_why(bound, shareable);
-  if (group) join_group(fd, bound.address, settings.interface);
-  bound.address = bound_address(fd);
-  return bound;
 }
 
 void enlarge_buffer(int fd, int bytes) {
@@ -119,22 +87,61 @@ std::optional<std::uint32_t> dropped_by_kernel(int fd) noexcept {
   return info[SK_MEMINFO_DROPS];
 }
 
-}  // namespace
-
-ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings) {
-  Bound bound = open_bound(settings);
-  name_ = describe_place(settings, bound.address);
-  port_ = static_cast<std::uint16_t>(sender_of(bound.address.storage).number);
-  const int fd = bound.socket.get();
+/// Bound and with every option. Where the machine has no IPv6, every interface is every IPv4 interface.
+Descriptor open_bound(const ReceiveSettings& settings, SocketAddress& address) {
+  const bool every = is_every_interface(settings.host);
+  Descriptor socket = open_socket(address.family());
+  if (!socket.is_open() && errno == EAFNOSUPPORT && every) {
+    address = any_ipv4(settings.port);
+    socket = open_socket(AF_INET);
+  }
+  if (!socket.is_open()) throw TransportError("no socket: " + system_text(errno));
+  const int fd = socket.get();
+  if (address.family() == AF_INET6) set_option(fd, IPPROTO_IPV6, IPV6_V6ONLY, every ? 0 : 1, "IPv6 only");
+  const bool group = is_multicast(address);
+  const bool shareable = group || is_broadcast(address);
+  if (shareable) set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1, "sharing the port");
+  if (group) hear_joined_only(fd, address.family());
+  set_option(fd, IPPROTO_IP, IP_FREEBIND, 1, "an address that may come later");
+  bind_or_say_why(fd, address, shareable);
   if (settings.buffer) enlarge_buffer(fd, *settings.buffer);
   // The first socket of a machine to ask wakes the stamping, which takes the kernel a moment: a datagram that comes
   // within it is stamped when it is read.
   set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1, "receive times");
   if (!dropped_by_kernel(fd)) throw TransportError("the kernel does not count its drops (Linux 4.12 or later does)");
+  return socket;
+}
+
+}  // namespace
+
+ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings)
+    : settings_(settings),
+      address_(address_of(settings)),
+      is_group_(is_multicast(address_)),
+      interface_(interface_of(settings.host, settings.interface)) {
+  if (!settings.interface.empty() && !is_group_) {
+    throw TransportError("interface = \"" + settings.interface +
+                         "\" is for multicast: to hear one interface only, write its address as the host");
+  }
+  const bool is_tied = needs_zone(address_);
+  if (is_tied && interface_.empty()) {
+    throw TransportError(std::string("this ") + (is_group_ ? "group" : "address") + " is one on each link: " +
+                         (is_group_ ? "interface=ADDR" : "%INTERFACE behind it") + " has to say which");
+  }
+  if (is_group_ || is_tied) watch_.emplace();
+  if (is_tied) {
+    readable_ = Descriptor(::epoll_create1(EPOLL_CLOEXEC));
+    if (!readable_.is_open()) throw TransportError("no descriptor for waiting: " + system_text(errno));
+  }
+  socket_ = is_tied ? open_socket(AF_INET6) : open_bound(settings_, address_);
+  follow_interfaces({});
+  port_ = port_in(is_tied && listens_through_.empty() ? address_ : bound_address(socket_.get()));
+  if (port_ == 0) throw TransportError("port = 0: " + why_nothing_can_come());
+  set_port(address_, port_);
+  name_ = described(settings, address_, port_);
   for (const std::string& host : settings.allow) {
     for (const SocketAddress& address : resolve(host, 0)) allowed_.push_back(sender_of(address.storage));
   }
-  socket_ = std::move(bound.socket);
   for (std::size_t i = 0; i < batch; ++i) {
     msghdr& header = headers_[i].msg_hdr;
     header = {};
@@ -144,16 +151,99 @@ ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings) {
     header.msg_name = &senders_[i];
     header.msg_control = controls_[i].data;
   }
+  if (watch_) watch_->start([this](const InterfaceWatch::Removed& removed) { return follow_or_say_why(removed); });
 }
 
-std::uint64_t ReceiveSocket::kernel_drops() const noexcept { return dropped_by_kernel(fd()).value_or(0); }
+void ReceiveSocket::replace_socket(const Descriptor& with) {
+  earlier_drops_ += dropped_by_kernel(socket_.get()).value_or(0);
+  epoll_event readable{};
+  readable.events = EPOLLIN;
+  // The kernel takes the old one out of the set by itself.
+  if (::dup3(with.get(), socket_.get(), O_CLOEXEC) < 0 ||
+      ::epoll_ctl(readable_.get(), EPOLL_CTL_ADD, socket_.get(), &readable) != 0) {
+    throw TransportError("no socket: " + system_text(errno));
+  }
+}
+
+void ReceiveSocket::listen_through(unsigned interface_index) {
+  if (needs_zone(address_) && zone_index(bound_address(socket_.get())) != interface_index) {
+    SocketAddress address = address_;
+    set_zone(address, interface_index);
+    replace_socket(open_bound(settings_, address));
+    listens_through_ = {interface_index};
+  }
+  if (!is_group_ || join_group(socket_.get(), address_, interface_index)) listens_through_.insert(interface_index);
+}
+
+void ReceiveSocket::follow_interfaces(const InterfaceWatch::Removed& removed) {
+  const auto stop_listening = [this](auto is_over) {
+    for (auto i = listens_through_.begin(); i != listens_through_.end();) {
+      // The kernel remembers what a socket joined, and refuses it again, also when the interface is gone.
+      if (is_over(*i)) leave_group(socket_.get(), address_, *i);
+      i = is_over(*i) ? listens_through_.erase(i) : std::next(i);
+    }
+  };
+  stop_listening([&removed](unsigned index) { return removed.has(index); });
+  if (!watch_) return;
+  std::vector<unsigned> wanted;
+  if (interface_.empty()) {
+    wanted = multicast_interfaces(address_.family());
+  } else if (const auto interface = find_interface(interface_)) {
+    wanted = {interface->index};
+  }
+  std::optional<TransportError> trouble;
+  for (const unsigned index : wanted) {
+    try {
+      if (listens_through_.count(index) == 0) listen_through(index);
+    } catch (const TransportError& error) {
+      trouble = error;
+    }
+  }
+  if (trouble) throw TransportError(*trouble);
+  // Its name or address has moved to another one.
+  if (!interface_.empty() && !wanted.empty()) {
+    stop_listening([&wanted](unsigned index) { return index != wanted.front(); });
+  }
+}
+
+bool ReceiveSocket::follow_or_say_why(const InterfaceWatch::Removed& removed) {
+  std::string trouble;
+  try {
+    follow_interfaces(removed);
+  } catch (const TransportError& error) {
+    trouble = error.what();
+  }
+  const std::lock_guard lock(trouble_mutex_);
+  trouble_ = std::move(trouble);
+  return trouble_.empty();
+}
+
+std::string ReceiveSocket::why_nothing_can_come() const {
+  try {
+    if (!interface_.empty()) {
+      if (std::string why = why_no_way_through(interface_); !why.empty()) return why;
+    } else if (!is_group_) {
+      if (!is_of_this_machine(address_)) return "no interface that is up has the address " + settings_.host;
+      const auto interface = find_interface(settings_.host);
+      if (interface && !interface->is_up) return "the interface with the address " + settings_.host + " is down";
+    }
+  } catch (const TransportError& error) {
+    return error.what();
+  }
+  const std::lock_guard lock(trouble_mutex_);
+  return trouble_;
+}
+
+std::uint64_t ReceiveSocket::kernel_drops() const noexcept {
+  return earlier_drops_ + dropped_by_kernel(socket_.get()).value_or(0);
+}
 
 int ReceiveSocket::fill() noexcept {
   for (auto& header : headers_) {
     header.msg_hdr.msg_namelen = sizeof(sockaddr_storage);
     header.msg_hdr.msg_controllen = sizeof(Control);
   }
-  return ::recvmmsg(fd(), headers_.data(), batch, MSG_DONTWAIT, nullptr);
+  return ::recvmmsg(socket_.get(), headers_.data(), batch, MSG_DONTWAIT, nullptr);
 }
 
 std::int64_t ReceiveSocket::arrival(std::size_t i) noexcept {

@@ -5,13 +5,17 @@
 #include <sys/socket.h>
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "interfaces.h"
 #include "socket.h"
 #include "trk_bridge/wire/codec.h"
 
@@ -21,20 +25,24 @@ namespace trk_bridge::transport {
 ///
 /// The host is an address of this machine, a multicast group, which is joined, or a broadcast address. Empty and `::`
 /// stand for every interface and both families, `0.0.0.0` for every interface and IPv4 alone. Several readers share a
-/// group or a broadcast address and each gets every datagram; the kernel gives a datagram to one address to one reader
-/// only, so that a second reader elsewhere is refused.
+/// group or a broadcast address (one that is so when it is opened) and each gets every datagram; the kernel gives a
+/// datagram to one address to one reader only, so that a second reader elsewhere is refused.
+///
+/// Address and interface need not be there yet, and may go and come: what they receive is read while they are there.
 struct ReceiveSettings {
   std::string host;        ///< IPv6 without its brackets; a name is looked up at opening, IPv4 before IPv6
   std::uint16_t port = 0;  ///< 0: the kernel picks one, name() has it
-  /// An address of this machine or an interface's name, for groups. Empty: every interface that is up at opening and
-  /// can do multicast, and the loopback.
+  /// An address of this machine or an interface's name, for groups. Empty: every interface that can do multicast, and
+  /// the loopback, each from when it is up.
   std::string interface;
   std::vector<std::string> allow;  ///< senders accepted; empty: all
   /// The kernel's receive buffer in bytes, 1 to 1073741823. Opening fails when the kernel grants less.
   std::optional<int> buffer;
 };
 
-/// Bound from construction to destruction. One thread at a time but for kernel_drops(); reading allocates nothing.
+/// Bound from construction to destruction; to an address that is another one on each interface (fe80::1%eth0, ff02::7),
+/// when that is there. One thread at a time but for kernel_drops() and why_nothing_can_come(); reading allocates
+/// nothing. A thread of its own follows the interfaces of groups and of such addresses.
 class ReceiveSocket {
  public:
   /// Throws TransportError.
@@ -45,9 +53,12 @@ class ReceiveSocket {
   /// "udp port 7000 on every interface".
   const std::string& name() const noexcept { return name_; }
   std::uint16_t port() const noexcept { return port_; }
-  int fd() const noexcept { return socket_.get(); }
+  /// Readable when the next datagram is there.
+  int fd() const noexcept { return readable_.is_open() ? readable_.get() : socket_.get(); }
   /// Datagrams that the kernel threw away so far because nobody read in time. Any thread.
   std::uint64_t kernel_drops() const noexcept;
+  /// "interface eth0 is down"; empty where nothing is wrong with address, interface and group. Any thread.
+  std::string why_nothing_can_come() const;
 
   /// One datagram.
   struct Datagram {
@@ -67,11 +78,22 @@ class ReceiveSocket {
     alignas(cmsghdr) char data[CMSG_SPACE(sizeof(timespec))];
   };
 
+  /// Takes a socket for the one that it reads from, whose number stays.
+  void replace_socket(const Descriptor& with);
+  void listen_through(unsigned interface_index);
+  void follow_interfaces(const InterfaceWatch::Removed& removed);
+  bool follow_or_say_why(const InterfaceWatch::Removed& removed);
+
   int fill() noexcept;
   std::int64_t arrival(std::size_t i) noexcept;
   bool is_allowed(const Sender&) const noexcept;
 
+  const ReceiveSettings settings_;
+  SocketAddress address_;  // without a zone
+  const bool is_group_;
+  const std::string interface_;  // that it is tied to; empty: none
   Descriptor socket_;
+  Descriptor readable_;  // a set with the socket in it: poll() does not see that a socket was replaced
   std::string name_;
   std::uint16_t port_ = 0;
   std::vector<Sender> allowed_;
@@ -82,6 +104,12 @@ class ReceiveSocket {
   std::array<sockaddr_storage, batch> senders_{};
   std::array<Control, batch> controls_{};
   std::array<wire::Buffer, batch> data_{};
+
+  std::set<unsigned> listens_through_;           // what was joined, or bound to
+  std::atomic<std::uint64_t> earlier_drops_{0};  // of sockets that were replaced
+  mutable std::mutex trouble_mutex_;
+  std::string trouble_;                  // the last time that it followed the interfaces; empty: none
+  std::optional<InterfaceWatch> watch_;  // the last one: its thread uses the others
 };
 
 }  // namespace trk_bridge::transport

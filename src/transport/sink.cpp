@@ -25,6 +25,8 @@ std::string describe(const SinkFault& fault) {
       return "a file holds one camera, and this record has another id than the constants in the file";
     case SinkReason::system:
       return "the system refused: " + std::generic_category().message(fault.error_number);
+    case SinkReason::no_interface:
+      return "the interface to send through is not there or has no address; sending goes on when it has";
     case SinkReason::gone:
       return "there is no segment that can be written to; every write looks for one or creates it";
     case SinkReason::closed:

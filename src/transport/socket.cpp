@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <memory>
 #include <optional>
-#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include <arpa/inet.h>
-#include <ifaddrs.h>
-#include <net/if.h>
 #include <netdb.h>
 #include <netinet/in.h>
 
@@ -61,74 +59,18 @@ Lookup look_up(const std::string& host, std::uint16_t port, int flags) {
   return lookup;
 }
 
-// <linux/in6.h> has it, but cannot stand beside <netinet/in.h>.
-constexpr int ipv6_multicast_all = 29;
-
-struct InterfaceAddress {
-  std::string name;
-  unsigned flags = 0;
-  SocketAddress address;
-};
-
-std::vector<InterfaceAddress> interface_addresses() {
-  ifaddrs* list = nullptr;
-  if (::getifaddrs(&list) != 0) {
-    throw TransportError("the interfaces cannot be listed: " + std::generic_category().message(errno));
-  }
-  const std::unique_ptr<ifaddrs, decltype(&::freeifaddrs)> owner(list, &::freeifaddrs);
-  std::vector<InterfaceAddress> addresses;
-  for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next) {
-    if (entry->ifa_addr == nullptr) continue;
-    const int family = entry->ifa_addr->sa_family;
-    if (family != AF_INET && family != AF_INET6) continue;
-    InterfaceAddress& to = addresses.emplace_back();
-    to.name = entry->ifa_name;
-    to.flags = entry->ifa_flags;
-    to.address.length = family == AF_INET ? sizeof(sockaddr_in) : sizeof(sockaddr_in6);
-    std::memcpy(&to.address.storage, entry->ifa_addr, to.address.length);
-  }
-  return addresses;
-}
-
-// Port and zone do not count.
-bool same_address(const SocketAddress& a, const SocketAddress& b) noexcept {
-  const Sender left = sender_of(a.storage), right = sender_of(b.storage);
-  return left.kind == right.kind && left.address == right.address;
-}
-
-std::vector<unsigned> joinable_interfaces(int family) {
-  std::set<unsigned> indices;
-  for (const InterfaceAddress& entry : interface_addresses()) {
-    const bool hears = (entry.flags & IFF_UP) != 0 && (entry.flags & (IFF_MULTICAST | IFF_LOOPBACK)) != 0;
-    if (hears && entry.address.family() == family) indices.insert(::if_nametoindex(entry.name.c_str()));
-  }
-  if (indices.empty()) throw TransportError("no interface that is up can do multicast");
-  return {indices.begin(), indices.end()};
-}
-
-// The interface that `%ZONE` named; 0 when none did.
-unsigned zone_of(const SocketAddress& address) noexcept {
-  if (address.family() != AF_INET6) return 0;
-  return reinterpret_cast<const sockaddr_in6&>(address.storage).sin6_scope_id;
-}
-
-void join_through(int fd, const SocketAddress& group, unsigned index) {
-  group_req request{};
-  request.gr_interface = index;
-  request.gr_group = group.storage;
-  const int level = group.family() == AF_INET ? IPPROTO_IP : IPPROTO_IPV6;
-  if (::setsockopt(fd, level, MCAST_JOIN_GROUP, &request, sizeof request) == 0) return;
-  const int error = errno;
-  char name[IF_NAMESIZE] = "?";
-  ::if_indextoname(index, name);
-  throw TransportError("joining the group through interface " + std::string(name) +
-                       " failed: " + std::generic_category().message(error) + " (interface=ADDR picks another one)");
+// An IPv6 address and the zone behind its %; empty where there is no zone.
+std::pair<std::string, std::string> split_zone(const std::string& host) {
+  const std::size_t percent = host.find('%');
+  if (percent == std::string::npos || host.find(':') >= percent) return {host, {}};
+  return {host.substr(0, percent), host.substr(percent + 1)};
 }
 
 }  // namespace
 
 std::vector<SocketAddress> resolve(const std::string& host, std::uint16_t port) {
-  Lookup lookup = look_up(host, port, 0);
+  // The resolver knows the zones that are there now only.
+  Lookup lookup = look_up(split_zone(host).first, port, 0);
   if (lookup.error != 0) {
     const std::string reason =
         lookup.error == EAI_SYSTEM ? std::generic_category().message(errno) : std::string(::gai_strerror(lookup.error));
@@ -142,8 +84,10 @@ std::vector<SocketAddress> resolve(const std::string& host, std::uint16_t port) 
   return std::move(lookup.addresses);
 }
 
+std::string zone_of(const std::string& host) { return split_zone(host).second; }
+
 std::optional<SocketAddress> numeric_address(const std::string& text) {
-  const Lookup lookup = look_up(text, 0, AI_NUMERICHOST);
+  const Lookup lookup = look_up(split_zone(text).first, 0, AI_NUMERICHOST);
   if (lookup.addresses.empty()) return {};
   return lookup.addresses.front();
 }
@@ -193,13 +137,39 @@ bool is_multicast(const SocketAddress& address) noexcept {
   return IN6_IS_ADDR_MULTICAST(&ipv6.sin6_addr);
 }
 
+bool needs_zone(const SocketAddress& address) noexcept {
+  if (address.family() != AF_INET6) return false;
+  const auto ipv6 = as<sockaddr_in6>(address.storage);
+  return IN6_IS_ADDR_LINKLOCAL(&ipv6.sin6_addr) || IN6_IS_ADDR_MC_LINKLOCAL(&ipv6.sin6_addr) ||
+         IN6_IS_ADDR_MC_NODELOCAL(&ipv6.sin6_addr);
+}
+
+unsigned zone_index(const SocketAddress& address) noexcept {
+  return address.family() == AF_INET6 ? as<sockaddr_in6>(address.storage).sin6_scope_id : 0;
+}
+
+void set_zone(SocketAddress& ipv6, unsigned interface_index) noexcept {
+  reinterpret_cast<sockaddr_in6&>(ipv6.storage).sin6_scope_id = interface_index;
+}
+
+void set_port(SocketAddress& address, std::uint16_t port) noexcept {
+  // Both families have it in the same place.
+  static_assert(offsetof(sockaddr_in, sin_port) == offsetof(sockaddr_in6, sin6_port));
+  reinterpret_cast<sockaddr_in&>(address.storage).sin_port = htons(port);
+}
+
+bool is_of_this_machine(SocketAddress address) noexcept {
+  const Descriptor probe(::socket(address.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  set_port(address, 0);
+  return probe.is_open() && ::bind(probe.get(), address.get(), address.length) == 0;
+}
+
 bool is_broadcast(const SocketAddress& address) noexcept {
   if (address.family() != AF_INET) return false;
   // The kernel refuses broadcast, and that alone, with EACCES to a socket that did not ask for it. Nothing is sent.
   const Descriptor probe(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  auto ipv4 = as<sockaddr_in>(address.storage);
-  if (ipv4.sin_port == 0) ipv4.sin_port = htons(9);
-  const SocketAddress target = from(ipv4);
+  SocketAddress target = address;
+  set_port(target, 9);
   return probe.is_open() && ::connect(probe.get(), target.get(), target.length) != 0 && errno == EACCES;
 }
 
@@ -210,51 +180,6 @@ SocketAddress bound_address(int fd) {
     throw TransportError("the port of the socket is not known: " + std::generic_category().message(errno));
   }
   return address;
-}
-
-Interface find_interface(const std::string& address_or_name) {
-  if (const unsigned index = ::if_nametoindex(address_or_name.c_str()); index != 0) return {index, {}};
-  const auto known = interface_addresses();
-  const std::optional<SocketAddress> wanted = numeric_address(address_or_name);
-  std::string there_are;
-  for (const InterfaceAddress& entry : known) {
-    if (wanted && same_address(entry.address, *wanted)) {
-      Interface found;
-      found.index = ::if_nametoindex(entry.name.c_str());
-      if (wanted->family() == AF_INET) {
-        found.ipv4 = reinterpret_cast<const sockaddr_in&>(wanted->storage).sin_addr;
-      }
-      return found;
-    }
-    if (there_are.find(entry.name) == std::string::npos) there_are += (there_are.empty() ? "" : ", ") + entry.name;
-  }
-  throw TransportError("interface \"" + address_or_name + "\": no interface has this address or name; there are " +
-                       (there_are.empty() ? "none" : there_are));
-}
-
-void join_group(int fd, const SocketAddress& group, const std::string& interface) {
-  if (group.family() == AF_INET) {
-    set_option(fd, IPPROTO_IP, IP_MULTICAST_ALL, 0, "hearing only what was joined");
-  } else {
-    set_option(fd, IPPROTO_IPV6, ipv6_multicast_all, 0, "hearing only what was joined");
-  }
-  const unsigned zone = interface.empty() ? zone_of(group) : find_interface(interface).index;
-  if (zone != 0) {
-    join_through(fd, group, zone);
-    return;
-  }
-  for (const unsigned index : joinable_interfaces(group.family())) join_through(fd, group, index);
-}
-
-void send_through(int fd, int family, const Interface& interface) {
-  if (family == AF_INET) {
-    ip_mreqn request{};
-    request.imr_address = interface.ipv4;
-    request.imr_ifindex = static_cast<int>(interface.index);
-    set_option(fd, IPPROTO_IP, IP_MULTICAST_IF, request, "interface");
-  } else {
-    set_option(fd, IPPROTO_IPV6, IPV6_MULTICAST_IF, static_cast<int>(interface.index), "interface");
-  }
 }
 
 }  // namespace trk_bridge::transport

@@ -1,4 +1,4 @@
-// Sockets: their descriptors, addresses, options, and the interfaces that multicast goes through.
+// Sockets: their descriptors, addresses and options.
 #pragma once
 
 #include <cerrno>
@@ -52,10 +52,13 @@ struct SocketAddress {
 };
 
 /// Every address that `host` (a name, an IPv4 or an IPv6 address, the latter with %ZONE where it needs one) stands for,
-/// IPv4 before IPv6, never none. Throws TransportError with the host and the resolver's reason.
+/// IPv4 before IPv6, never none, without zones. Throws TransportError with the host and the resolver's reason.
 std::vector<SocketAddress> resolve(const std::string& host, std::uint16_t port);
 
-/// An address written as numbers; none when it is not.
+/// The name of the interface in an IPv6 address with %ZONE; empty for every other host.
+std::string zone_of(const std::string& host);
+
+/// An address written as numbers, without its zone; none when it is not.
 std::optional<SocketAddress> numeric_address(const std::string& text);
 
 /// `::`, which takes IPv4 too when its socket does.
@@ -67,6 +70,14 @@ Sender sender_of(const sockaddr_storage& address) noexcept;
 
 bool is_any(const SocketAddress& address) noexcept;
 bool is_multicast(const SocketAddress& address) noexcept;
+/// Whether it is another one on each interface, so that its socket is bound to one interface for good.
+bool needs_zone(const SocketAddress& address) noexcept;
+/// Of the interface that it is on; 0: none is said.
+unsigned zone_index(const SocketAddress& address) noexcept;
+void set_zone(SocketAddress& ipv6, unsigned interface_index) noexcept;
+void set_port(SocketAddress& address, std::uint16_t port) noexcept;
+/// Whether a socket can be bound to it now: an interface that is up has it, or it stands for several of this machine.
+bool is_of_this_machine(SocketAddress address) noexcept;
 /// Whether this machine's routes take it for a broadcast address.
 bool is_broadcast(const SocketAddress& address) noexcept;
 
@@ -79,20 +90,5 @@ void set_option(int fd, int level, int option, const T& value, const char* what)
   if (::setsockopt(fd, level, option, &value, sizeof value) == 0) return;
   throw TransportError(std::string(what) + ": the system refused: " + std::generic_category().message(errno));
 }
-
-struct Interface {
-  unsigned index = 0;
-  in_addr ipv4{};  ///< the address it was named by; 0.0.0.0 when by name or IPv6 address
-};
-
-/// By an address it has or by its name. Throws TransportError that lists what there is.
-Interface find_interface(const std::string& address_or_name);
-
-/// Hears `group` through the interface named, else that of the address's zone, else every one that is up and can do
-/// multicast, and the loopback; and nothing through others, whoever joined it there. Throws TransportError.
-void join_group(int fd, const SocketAddress& group, const std::string& interface);
-
-/// Sends to groups through the interface. Throws TransportError.
-void send_through(int fd, int family, const Interface& interface);
 
 }  // namespace trk_bridge::transport

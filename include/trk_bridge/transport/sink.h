@@ -19,6 +19,7 @@ enum class SinkReason : std::uint8_t {
   constants_changed,  ///< a file holds one set of constants: others came, or parameters that belong to them
   other_camera,       ///< a file holds one camera: the id is not that of its constants
   system,             ///< the kernel refused: `error_number`
+  no_interface,       ///< the interface to send through is not there or has no address; writes go out when it has
   gone,               ///< no segment can be written to: every write looks for one, or creates it
   closed,             ///< close() was called before
 };

@@ -54,7 +54,9 @@ struct SourceStatistics {
   std::uint64_t reattached = 0;           ///< shared memory: segments attached to after the first
   Sender last_refused;
   std::string error;        ///< when failed: one line for a person
-  std::string waiting_for;  ///< when waiting: "slot 7: no segment", "udp port 7000: bound, nothing received yet"
+  /// When waiting, and whenever nothing can come: "slot 7: no segment", "udp port 7000: bound, nothing received yet",
+  /// "udp port 7000: interface eth0 is down".
+  std::string waiting_for;
 };
 
 /// One place that records come from, opened by endpoints::open_source().

@@ -100,8 +100,8 @@ TEST(SinkFault, EveryReasonHasItsOwnText) {
   system.error_number = ENETUNREACH;
   EXPECT_THAT(describe(system), HasSubstr("unreachable"));
   const auto reasons = {SinkReason::not_encodable, SinkReason::no_constants, SinkReason::constants_changed,
-                        SinkReason::other_camera,  SinkReason::system,       SinkReason::gone,
-                        SinkReason::closed};
+                        SinkReason::other_camera,  SinkReason::system,       SinkReason::no_interface,
+                        SinkReason::gone,          SinkReason::closed};
   for (const SinkReason reason : reasons) texts.insert(describe(SinkFault{reason}));
   EXPECT_EQ(texts.size(), reasons.size());
 }

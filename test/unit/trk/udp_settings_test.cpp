@@ -87,6 +87,18 @@ TEST(UdpSettings, UdpWrongHostsAndPorts) {
   EXPECT_THAT(write_error("udp://host:0"), HasSubstr("1 to 65535"));
 }
 
+TEST(UdpSettings, AnInterfaceThatCannotBeOneIsAnErrorAtOnce) {
+  for (const std::string good : {"eth0", "enp0s31f6.100", "192.0.2.9", "fe80::1", "fe80::1%25eth0"}) {
+    EXPECT_NE(udp_in("udp://239.1.2.3:7000?interface=" + good).interface, "") << good;
+  }
+  for (const std::string bad :
+       {"", "192.0.2.300", "192.0.2", "192.0.2.9.", "fe80::x", "eth0:7000", "a/b", "sixteen_letters_"}) {
+    EXPECT_THAT(read_error("udp://239.1.2.3:7000?interface=" + bad),
+                AllOf(HasSubstr("option interface = \"" + bad + "\""), HasSubstr("an interface's name")));
+    EXPECT_THAT(write_error("udp://239.1.2.3:7000?interface=" + bad), HasSubstr("option interface"));
+  }
+}
+
 TEST(UdpSettings, ALayoutWithoutBinaryWouldCountForNothing) {
   EXPECT_THAT(write_error("udp://h:1?layout=identified"), HasSubstr("binary=1"));
   EXPECT_THAT(write_error("udp://h:1?layout=identified&binary=0"), HasSubstr("binary=1"));

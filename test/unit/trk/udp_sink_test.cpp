@@ -218,7 +218,13 @@ TEST(UdpSink, WhatCannotBeOpenedSaysWhy) {
   EXPECT_THAT(open_error("udp://0.0.0.0:7000"), HasSubstr("no address to send to"));
   EXPECT_THAT(open_error("udp://[::]:7000"), HasSubstr("udp://[::]:7000: host"));
   EXPECT_THAT(open_error("udp://127.0.0.1:7000?interface=127.0.0.1"), HasSubstr("is for multicast"));
-  EXPECT_THAT(open_error("udp://239.255.77.1:7000?interface=nosuch0"), HasSubstr("\"nosuch0\""));
+}
+
+TEST(UdpSink, AnInterfaceThatIsNotThereYetIsAFaultOfEachWrite) {
+  const auto sink = open_sink("udp://239.255.77.1:7000?interface=nosuch0");
+  EXPECT_EQ(sink->name(), "udp to 239.255.77.1:7000 through nosuch0");
+  EXPECT_EQ(sink->write(test::params(1)).error().reason, SinkReason::no_interface) << "and not the system's choice";
+  EXPECT_EQ(sink->statistics().errors, 1u);
 }
 
 }  // namespace

@@ -309,12 +309,22 @@ TEST(UdpSource, ABroadcastAddressIsShared) {
 }
 
 TEST(UdpSource, WhatCannotBeOpenedSaysWhy) {
-  EXPECT_THAT(open_error("udp://198.51.100.1:0"), HasSubstr("no interface has this address"));
   EXPECT_THAT(open_error("udp://127.0.0.1:0?interface=127.0.0.1"), HasSubstr("is for multicast"));
-  EXPECT_THAT(open_error("udp://239.255.77.1:0?interface=198.51.100.1"),
-              testing::AllOf(HasSubstr("\"198.51.100.1\""), HasSubstr("there are"), HasSubstr("lo")));
-  EXPECT_THAT(open_error("udp://239.255.77.1:0?interface=nosuch0"), HasSubstr("\"nosuch0\""));
+  EXPECT_THAT(open_error("udp://192.0.2.300:0"), HasSubstr("192.0.2.300"));
   EXPECT_THAT(open_error("udp://[ff02::7]:0"), HasSubstr("interface=ADDR"));
+  EXPECT_THAT(open_error("udp://[fe80::7]:7000"), HasSubstr("%INTERFACE"));
+  EXPECT_THAT(open_error("udp://[fe80::7%25no/name]:7000"), HasSubstr("behind %"));
+  EXPECT_THAT(open_error("udp://[fe80::7%25nosuch0]:0"), testing::AllOf(HasSubstr("port = 0"), HasSubstr("nosuch0")));
+}
+
+/// What a source that waits at `place` of some port waits for.
+std::string waiting_for(const std::string& place) { return open_source(place)->statistics().waiting_for; }
+
+TEST(UdpSource, WhatIsNotThereYetIsWaitedFor) {
+  EXPECT_THAT(waiting_for("udp://198.51.100.1:0"), HasSubstr(": no interface that is up has the address 198.51.100.1"));
+  EXPECT_THAT(waiting_for("udp://239.255.77.1:0?interface=198.51.100.1"),
+              testing::AllOf(HasSubstr("address or name 198.51.100.1;"), HasSubstr("there are"), HasSubstr("lo")));
+  EXPECT_THAT(waiting_for("udp://239.255.77.1:0?interface=nosuch0"), HasSubstr("address or name nosuch0;"));
 }
 
 TEST(UdpSource, StatisticsWhileReceiving) {
