@@ -66,7 +66,8 @@ std::unique_ptr<Source> open_datagram_source(const ReceiveSettings&, std::unique
 struct SendSettings {
   std::string host;        ///< IPv6 without its brackets; a name is looked up at opening, IPv4 before IPv6
   std::uint16_t port = 0;  ///< 1 to 65535
-  /// An address of this machine or an interface's name, for groups. Empty: the system's choice.
+  /// An address of this machine or an interface's name, for groups; writes fail while it is not there. Empty: the
+  /// system's choice.
   std::string interface;
   std::optional<int> ttl;  ///< 0..255 (unicast and broadcast 1..255): it passes at most ttl - 1 routers
   /// Seconds to 86400 after which constants are sent again with the next parameters of their id; 0: never.

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include <arpa/inet.h>
 #include <ifaddrs.h>
 #include <linux/netlink.h>
 #include <linux/rtnetlink.h>
@@ -87,10 +88,12 @@ std::optional<Interface> find_in(const std::vector<InterfaceAddress>& known, con
 }  // namespace
 
 bool may_name_interface(const std::string& text) {
-  if (numeric_address(text)) return true;
-  const bool is_mistyped_address = text.find_first_not_of("0123456789.") == std::string::npos;
-  return !text.empty() && text.size() < IF_NAMESIZE && !is_mistyped_address &&
-         text.find_first_of("/: \t\n") == std::string::npos;
+  // The resolver takes 192.0.2 for 192.0.0.2.
+  in_addr ipv4{};
+  const bool is_number_or_ipv4 = text.find_first_not_of("0123456789.") == std::string::npos;
+  if (is_number_or_ipv4 && text.find('.') != std::string::npos) return ::inet_pton(AF_INET, text.c_str(), &ipv4) == 1;
+  const bool is_name = !text.empty() && text.size() < IF_NAMESIZE && text.find_first_of("/: \t\n") == std::string::npos;
+  return is_name || numeric_address(text);
 }
 
 std::string interface_of(const std::string& host, const std::string& interface) {

@@ -155,9 +155,10 @@ ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings)
 }
 
 void ReceiveSocket::replace_socket(const Descriptor& with) {
-  earlier_drops_ += dropped_by_kernel(socket_.get()).value_or(0);
   epoll_event readable{};
   readable.events = EPOLLIN;
+  const std::lock_guard lock(mutex_);
+  earlier_drops_ += dropped_by_kernel(socket_.get()).value_or(0);
   // The kernel takes the old one out of the set by itself.
   if (::dup3(with.get(), socket_.get(), O_CLOEXEC) < 0 ||
       ::epoll_ctl(readable_.get(), EPOLL_CTL_ADD, socket_.get(), &readable) != 0) {
@@ -170,7 +171,7 @@ void ReceiveSocket::listen_through(unsigned interface_index) {
     SocketAddress address = address_;
     set_zone(address, interface_index);
     replace_socket(open_bound(settings_, address));
-    listens_through_ = {interface_index};
+    listens_through_.clear();
   }
   if (!is_group_ || join_group(socket_.get(), address_, interface_index)) listens_through_.insert(interface_index);
 }
@@ -213,7 +214,7 @@ bool ReceiveSocket::follow_or_say_why(const InterfaceWatch::Removed& removed) {
   } catch (const TransportError& error) {
     trouble = error.what();
   }
-  const std::lock_guard lock(trouble_mutex_);
+  const std::lock_guard lock(mutex_);
   trouble_ = std::move(trouble);
   return trouble_.empty();
 }
@@ -222,19 +223,23 @@ std::string ReceiveSocket::why_nothing_can_come() const {
   try {
     if (!interface_.empty()) {
       if (std::string why = why_no_way_through(interface_); !why.empty()) return why;
-    } else if (!is_group_) {
-      if (!is_of_this_machine(address_)) return "no interface that is up has the address " + settings_.host;
+    }
+    if (!is_group_ && !is_of_this_machine(bound_address(socket_.get()))) {
+      return "no interface that is up has the address " + settings_.host;
+    }
+    if (!is_group_ && interface_.empty()) {
       const auto interface = find_interface(settings_.host);
       if (interface && !interface->is_up) return "the interface with the address " + settings_.host + " is down";
     }
   } catch (const TransportError& error) {
     return error.what();
   }
-  const std::lock_guard lock(trouble_mutex_);
+  const std::lock_guard lock(mutex_);
   return trouble_;
 }
 
 std::uint64_t ReceiveSocket::kernel_drops() const noexcept {
+  const std::lock_guard lock(mutex_);
   return earlier_drops_ + dropped_by_kernel(socket_.get()).value_or(0);
 }
 

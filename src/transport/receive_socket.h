@@ -5,7 +5,6 @@
 #include <sys/socket.h>
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -105,9 +104,9 @@ class ReceiveSocket {
   std::array<Control, batch> controls_{};
   std::array<wire::Buffer, batch> data_{};
 
-  std::set<unsigned> listens_through_;           // what was joined, or bound to
-  std::atomic<std::uint64_t> earlier_drops_{0};  // of sockets that were replaced
-  mutable std::mutex trouble_mutex_;
+  std::set<unsigned> listens_through_;   // what was joined, or bound to
+  mutable std::mutex mutex_;             // of the next two
+  std::uint64_t earlier_drops_ = 0;      // of sockets that were replaced
   std::string trouble_;                  // the last time that it followed the interfaces; empty: none
   std::optional<InterfaceWatch> watch_;  // the last one: its thread uses the others
 };

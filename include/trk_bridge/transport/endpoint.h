@@ -17,9 +17,9 @@ struct SourceEndpoint {
   std::string url;        ///< as it was given
   std::string place;      ///< equal for two endpoints that read the same port, slot or file
   bool can_wait = false;  ///< nothing is lost where its records are taken late: a take without a pace of its own
-  /// `field_rate` (Hz) counts for takes whose URL has no `rate`. Throws TransportError: a port in use, an address of no
-  /// interface, a file with an error in line N (`take.trk:57: field 9 is not a number`), … A shared memory slot that
-  /// does not exist yet is no error.
+  /// `field_rate` (Hz) counts for takes whose URL has no `rate`. Throws TransportError: a port in use, a host that is
+  /// not known, a file with an error in line N (`take.trk:57: field 9 is not a number`), … A shared memory slot, an
+  /// address of this machine or an interface that is not there yet is no error.
   std::function<std::unique_ptr<Source>(double field_rate)> open;
 };
 
@@ -45,7 +45,7 @@ struct SinkEndpoint {
   std::string url;  ///< as it was given
   SinkForm form;
   Blocking blocking = Blocking::never;
-  /// Throws TransportError.
+  /// Throws TransportError. An interface or a route that is not there yet is no error.
   std::function<std::unique_ptr<Sink>()> open;
 };
 

@@ -478,7 +478,7 @@ TEST_F(NetworkTest, AnAddressThatMovesIsFollowed) {
   EXPECT_TRUE(time_until([&] { return sends_one(*sink, through_w); }));
 }
 
-TEST_F(NetworkTest, AMomentsWorthOfManyInterfacesCostsNoRecord) {
+TEST_F(NetworkTest, ManyInterfacesThatComeAndGoCostNoRecord) {
   network->plug_in();
   const auto source = source_at("udp://239.9.9.9:7000");
   const auto sink = sink_to("udp://239.9.9.9:7000?interface=v0");
