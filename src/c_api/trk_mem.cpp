@@ -1,7 +1,9 @@
 #include <trk/trk_mem.h>
 
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <mutex>
 
 #include "handles.h"
@@ -21,14 +23,35 @@ std::atomic<unsigned> configured{trkMemDefault};
 /// What a handle stands for.
 using Memory = Link;
 
-Link::Options options_for(int slot) {
-  // The field's own programs on a 64-bit machine make and find the same.
-  constexpr std::size_t document_lp64 = 528;
-  Link::Options options;
-  options.slot = slot;
-  options.create = shm::layout_of_size(document_lp64);
-  options.recreate = (configured.load() & trkMemRecreate) != 0;
-  return options;
+/// Of segments that are made: the environment's TRK_LAYOUT, or the default. Null, and a line on stderr, for a word that
+/// no segment has as its layout.
+const shm::SegmentLayout* layout_to_make() {
+  const char* const word = std::getenv("TRK_LAYOUT");
+  if (word == nullptr) return shm::layout_of(shm::default_layout);
+  const auto choice = wire::layout_choice_from_word(word);
+  const auto* const layout = choice ? shm::layout_of(wire::resolve(*choice, shm::default_layout)) : nullptr;
+  if (layout == nullptr) {
+    std::fprintf(
+        stderr,
+        "libtrk: TRK_LAYOUT=%s: no shared memory has this layout; allowed are document, identified, and either "
+        "followed by _lp64 or _i386\n",
+        word);
+  }
+  return layout;
+}
+
+// While others make or remove the segment; a maker that takes longer has died or is none.
+constexpr int open_attempts = 200;
+constexpr timespec open_pause{0, 1'000'000};
+
+/// Attaches, or makes the segment. Opening is the one call that waits, up to 0.2 s.
+tl::expected<void, SlotFault> open(Link& memory) {
+  auto opened = memory.keep_for_writing(Link::Clock::now());
+  for (int i = 1; i < open_attempts && !opened && shm::is_transient(opened.error().problem); ++i) {
+    ::nanosleep(&open_pause, nullptr);
+    opened = memory.keep_for_writing(Link::Clock::now());
+  }
+  return opened;
 }
 
 trkError error_of(const SlotFault& fault) noexcept {
@@ -45,7 +68,7 @@ trkError read(trkHandle handle, CRecord* into) {
         return shm::is_absence(kept.error().problem) ? trkUnavailable : error_of(kept.error());
       }
       Record record;
-      wire::Fault fault{};
+      transport::Fault fault;
       switch (memory.read(record, fault)) {
         case ReadResult::fresh:
           *into = to_c(record);
@@ -90,8 +113,13 @@ trkError trkMemConfigure(unsigned flags) {
 trkError trkMemOpen(int slot, trkHandle* handle) {
   return guarded([&] {
     if (handle == nullptr || slot < 0 || slot >= shm::slot_count) return trkFailed;
-    Memory memory(c_api::options_for(slot));
-    if (const auto open = memory.keep_for_writing(Memory::Clock::now()); !open) return c_api::error_of(open.error());
+    Memory::Options options;
+    options.slot = slot;
+    options.create = c_api::layout_to_make();
+    options.recreate = (c_api::configured.load() & trkMemRecreate) != 0;
+    if (options.create == nullptr) return trkFailed;
+    Memory memory(options);
+    if (const auto opened = c_api::open(memory); !opened) return c_api::error_of(opened.error());
     static std::once_flag registered;
     std::call_once(registered, [] { std::atexit(trkMemCloseAll); });
     *handle = handles<Memory>().open(std::move(memory));

@@ -2,16 +2,55 @@
 
 #include <algorithm>
 
+#include "slot.h"
+#include "wire/layout_detector.h"
+
 namespace trk_bridge::shm {
 namespace {
+
+/// What is wrong with a record of a segment, beside what wire knows.
+enum class RecordProblem : std::uint8_t { implausible, uncertain, unsteady };
+
+// The field of such a fault is the size of the segment.
+std::string describe_record(const transport::Fault& fault) {
+  const std::string segment = "the segment of " + std::to_string(fault.field()) + " bytes";
+  switch (static_cast<RecordProblem>(fault.code())) {
+    case RecordProblem::implausible:
+      return "no layout gives a record of " + segment +
+             " a rotation and numbers that a camera has: its writer may take it for one of another size";
+    case RecordProblem::uncertain:
+      return "a record of " + segment +
+             " reads in both generations: which one the writer is of shows when it writes constants";
+    case RecordProblem::unsteady:
+      return segment + " changed while it was copied, every time";
+  }
+  return "unknown problem";
+}
+
+transport::Fault record_fault(RecordProblem problem, const Segment& segment) noexcept {
+  const char* const name = problem == RecordProblem::implausible ? "implausible record"
+                           : problem == RecordProblem::uncertain ? "uncertain layout"
+                                                                 : "unsteady segment";
+  return {name, describe_record, static_cast<std::uint8_t>(problem), static_cast<std::int16_t>(segment.layout().size)};
+}
+
+std::string_view params_in(const RecordImage& image, const SegmentLayout& layout) noexcept {
+  return image.part(layout.params[image.counter & 1U], layout.params_size);
+}
+
+std::string_view constants_in(const RecordImage& image, const SegmentLayout& layout) noexcept {
+  return image.part(layout.constants[image.counter & 1U], layout.constants_size);
+}
+
+bool is_all_zero(std::string_view bytes) noexcept {
+  return std::all_of(bytes.begin(), bytes.end(), [](char c) { return c == 0; });
+}
 
 // Constants have been written when their counter has moved, or, after 65536 of them, when they are not all zero.
 bool has_constants(const Segment& segment) noexcept {
   if (segment.constants_counter() != 0) return true;
   RecordImage image;
-  if (!segment.copy_constants(image)) return true;
-  const auto bytes = image.view();
-  return std::any_of(bytes.begin(), bytes.end(), [](char c) { return c != 0; });
+  return !segment.copy_constants(image) || !is_all_zero(image.view());
 }
 
 }  // namespace
@@ -23,12 +62,15 @@ bool Link::look_due(Clock::time_point now, std::chrono::milliseconds period) noe
 }
 
 tl::expected<void, SlotFault> Link::keep(Clock::time_point now) noexcept {
-  if (segment_) {
-    if (!look_due(now, check_period)) return {};
-    return check(true, nullptr, now);
+  if (!segment_) {
+    if (absent_ && !look_due(now, attach_period)) return tl::unexpected(*absent_);
+    return attach(nullptr, now);
   }
-  if (absent_ && !look_due(now, attach_period)) return tl::unexpected(*absent_);
-  return attach(nullptr, now);
+  if (!look_due(now, check_period)) return {};
+  if (const auto checked = check(true, nullptr, now); !checked) return checked;
+  if (has_written_ || !is_alone_too_long(now)) return {};
+  absent_ = let_go();
+  return tl::unexpected(*absent_);
 }
 
 tl::expected<void, SlotFault> Link::keep_for_writing(Clock::time_point now) noexcept {
@@ -61,8 +103,42 @@ tl::expected<void, SlotFault> Link::check(bool look_up, const SegmentLayout* cre
   return {};
 }
 
+Link::Look Link::look() const noexcept {
+  return {segment_->attendance(), segment_->params_counter(), segment_->constants_counter()};
+}
+
+// A program may attach, write and leave between two looks: it shows in the kernel's times or in the counters.
+bool Link::is_alone_too_long(Clock::time_point now) noexcept {
+  const Look seen = look();
+  const bool is_quiet = seen.attendance == last_look_.attendance && seen.params == last_look_.params &&
+                        seen.constants == last_look_.constants;
+  last_look_ = seen;
+  if (seen.attendance.attachments != 1) {
+    alone_since_.reset();
+  } else if (!is_quiet || !alone_since_) {
+    alone_since_ = now;
+  }
+  return alone_since_ && now - *alone_since_ >= alone_limit;
+}
+
+SlotFault Link::let_go() noexcept {
+  const int id = segment_->id();
+  segment_.reset();
+  const auto found = find_segment(options_.slot);
+  if (!found) return found.error();
+  if (found->id == id) left_ = Left{id, attendance_of(found->state)};
+  return slot_fault(SlotProblem::deserted, options_.slot);
+}
+
+bool Link::is_still_deserted() const noexcept {
+  if (!left_) return false;
+  const auto found = find_segment(options_.slot);
+  return found && found->id == left_->id && attendance_of(found->state) == left_->attendance;
+}
+
 tl::expected<void, SlotFault> Link::attach(const SegmentLayout* create, Clock::time_point now) noexcept {
   looked_ = now;
+  if (create == nullptr && is_still_deserted()) return tl::unexpected(*absent_);
   auto segment = create != nullptr ? Segment::attach_or_create(options_.slot, *create, options_.mode)
                                    : Segment::attach(options_.slot);
   if (!segment) {
@@ -73,11 +149,19 @@ tl::expected<void, SlotFault> Link::attach(const SegmentLayout* create, Clock::t
   segment_.emplace(std::move(*segment));
   ++attached_;
   had_company_ = segment_->attachments() > 1;
-  begin_reading();
+  begin_reading(now);
   return {};
 }
 
-void Link::begin_reading() noexcept {
+void Link::begin_reading(Clock::time_point now) noexcept {
+  last_look_ = look();
+  alone_since_.reset();
+  if (last_look_.attendance.attachments == 1) alone_since_ = now;
+  const bool is_known = left_ && left_->id == segment_->id();
+  left_.reset();
+  if (is_known) return;
+  writer_layout_ = nullptr;
+  read_in_ = segment_->layout().record;
   const bool restore = written_constants_ && segment_->writable() && !has_constants(*segment_);
   // They went into a segment before, and no layout refuses constants that another one can hold.
   if (restore) static_cast<void>(segment_->write(*written_constants_));
@@ -86,42 +170,98 @@ void Link::begin_reading() noexcept {
   constants_unread_ = !restore && has_constants(*segment_);
 }
 
-ReadResult Link::read(wire::CameraParams& into, wire::Fault& fault) noexcept {
-  if (!segment_ || segment_->params_counter() == params_read_) return ReadResult::nothing;
-  RecordImage image;
-  if (!segment_->copy_params(image)) return ReadResult::nothing;
-  overwritten_ += static_cast<std::uint16_t>(image.counter - params_read_ - 1U);
-  params_read_ = image.counter;
-  const auto params = wire::params_from_image(image.view(), segment_->layout().record);
-  if (!params) {
-    fault = params.error();
+tl::expected<const SegmentLayout*, transport::Fault> Link::layout_of_constants(const RecordImage& image) noexcept {
+  const SegmentLayout& own = segment_->layout();
+  const SegmentLayout* const smaller = smaller_generation(own);
+  const unsigned own_grade = wire::constants_grade(constants_in(image, own), own.record);
+  const unsigned other_grade =
+      smaller != nullptr ? wire::constants_grade(constants_in(image, *smaller), smaller->record) : 0;
+  if (own_grade == 0 && other_grade == 0) return tl::unexpected(record_fault(RecordProblem::implausible, *segment_));
+  const bool is_open = own_grade == other_grade && own_grade == 1;
+  if (is_open) return writer_layout_ != nullptr ? writer_layout_ : &own;
+  // Good ones of the larger generation do not read as good ones of the smaller: its picture would have the size of id
+  // and width, and its chip that of two whole numbers.
+  writer_layout_ = own_grade > other_grade ? &own : smaller;
+  return writer_layout_;
+}
+
+tl::expected<const SegmentLayout*, transport::Fault> Link::layout_of_params(const RecordImage& image) noexcept {
+  const SegmentLayout& own = segment_->layout();
+  const SegmentLayout* const smaller = smaller_generation(own);
+  const unsigned own_grade = wire::params_grade(params_in(image, own), own.record);
+  const unsigned other_grade = smaller != nullptr ? wire::params_grade(params_in(image, *smaller), smaller->record) : 0;
+  if (own_grade == 0 && other_grade == 0) return tl::unexpected(record_fault(RecordProblem::implausible, *segment_));
+  if (own_grade == 0 || other_grade == 0) {
+    writer_layout_ = own_grade > 0 ? &own : smaller;
+    return writer_layout_;
+  }
+  // Both, which only generations can whose numbers lie in the same places.
+  const std::string_view record = image.view();
+  const bool has_first_word = !is_all_zero(record.substr(0, 4)), has_second_word = !is_all_zero(record.substr(4, 4));
+  if (!has_first_word && !has_second_word) return &own;  // neither id nor format: the same in both
+  RecordImage constants;
+  if (writer_layout_ == nullptr && has_constants(*segment_) && segment_->copy_constants(constants)) {
+    static_cast<void>(layout_of_constants(constants));
+  }
+  if (writer_layout_ != nullptr) return writer_layout_;
+  // A format behind an id: padding seldom looks like one.
+  if (has_second_word && own_grade >= other_grade) return &own;
+  return tl::unexpected(record_fault(RecordProblem::uncertain, *segment_));
+}
+
+template <typename Record>
+ReadResult Link::hand_out(const tl::expected<Record, wire::Fault>& record,
+                          const tl::expected<const SegmentLayout*, transport::Fault>& layout, Record& into,
+                          transport::Fault& fault) noexcept {
+  if (!record) {
+    fault = record.error();
     return ReadResult::malformed;
   }
-  into = *params;
+  if (!layout) {
+    fault = layout.error();
+    return ReadResult::malformed;
+  }
+  read_in_ = (*layout)->record;
+  into = *record;
   return ReadResult::fresh;
 }
 
-ReadResult Link::read(wire::CameraConstants& into, wire::Fault& fault) noexcept {
+ReadResult Link::read(wire::CameraParams& into, transport::Fault& fault) noexcept {
+  if (!segment_ || segment_->params_counter() == params_read_) return ReadResult::nothing;
+  RecordImage image;
+  if (!segment_->copy_params(image)) {
+    fault = record_fault(RecordProblem::unsteady, *segment_);
+    return ReadResult::malformed;
+  }
+  overwritten_ += static_cast<std::uint16_t>(image.counter - params_read_ - 1U);
+  params_read_ = image.counter;
+  const auto layout = layout_of_params(image);
+  const SegmentLayout& in = layout ? **layout : segment_->layout();
+  return hand_out(wire::params_from_image(params_in(image, in), in.record), layout, into, fault);
+}
+
+ReadResult Link::read(wire::CameraConstants& into, transport::Fault& fault) noexcept {
   if (!segment_) return ReadResult::nothing;
   if (!constants_unread_ && segment_->constants_counter() == constants_read_) return ReadResult::nothing;
   RecordImage image;
-  if (!segment_->copy_constants(image)) return ReadResult::nothing;
-  constants_unread_ = false;
-  constants_read_ = image.counter;
-  const auto constants = wire::constants_from_image(image.view(), segment_->layout().record);
-  if (!constants) {
-    fault = constants.error();
+  if (!segment_->copy_constants(image)) {
+    fault = record_fault(RecordProblem::unsteady, *segment_);
     return ReadResult::malformed;
   }
-  into = *constants;
-  return ReadResult::fresh;
+  constants_unread_ = false;
+  constants_read_ = image.counter;
+  const auto layout = layout_of_constants(image);
+  const SegmentLayout& in = layout ? **layout : segment_->layout();
+  return hand_out(wire::constants_from_image(constants_in(image, in), in.record), layout, into, fault);
 }
 
 tl::expected<void, wire::Fault> Link::write(const wire::CameraParams& params) noexcept {
+  has_written_ = true;
   return segment_->write(params);
 }
 
 tl::expected<void, wire::Fault> Link::write(const wire::CameraConstants& constants) noexcept {
+  has_written_ = true;
   auto written = segment_->write(constants);
   if (written) written_constants_ = constants;
   return written;

@@ -8,6 +8,7 @@
 #include <tl/expected.hpp>
 
 #include "segment.h"
+#include "trk_bridge/transport/sample.h"
 #include "trk_bridge/wire/codec.h"
 
 namespace trk_bridge::shm {
@@ -20,7 +21,12 @@ enum class ReadResult : std::uint8_t {
 };
 
 /// Reads and writes one slot over all the segments it has in the course of time. Of a segment it attaches to, it reads
-/// parameters written from then on, and constants written before as well. One thread at a time; allocates nothing.
+/// parameters written from then on, and constants written before as well. One thread at a time; allocates nothing and
+/// never waits.
+///
+/// Programs of the smaller generation (smaller_generation()) can attach to a segment and write records of their own
+/// into it. So a record is read in both layouts: it counts in the one in which it is plausible, and where it is in
+/// both, in the one that the constants in the segment, or the records before, speak for. Otherwise it is malformed.
 class Link {
  public:
   /// Which slot, and what to make where there is nothing.
@@ -37,11 +43,15 @@ class Link {
   /// How often it asks whether the slot still means this segment, and looks for one that is not there.
   static constexpr std::chrono::milliseconds check_period{200};
   static constexpr std::chrono::milliseconds attach_period{50};
+  /// How long a reader stays alone with a segment: a writer whose segments are larger could not open the slot
+  /// meanwhile.
+  static constexpr std::chrono::seconds alone_limit{1};
 
   explicit Link(const Options& options) noexcept : options_(options) {}
 
-  /// For reading: attaches, or reattaches, when it is time to look; creates nothing. A fault says why there
-  /// is no segment.
+  /// For reading: attaches, or reattaches, when it is time to look; creates nothing. Lets go of a segment that nobody
+  /// else has attached to for `alone_limit`, unless it wrote; that removes it where the system permits, and where not,
+  /// it is attached to again when somebody else has. A fault says why there is no segment.
   [[nodiscard]] tl::expected<void, SlotFault> keep(Clock::time_point now) noexcept;
   /// For writing: looks at every call, for a write into a removed segment would be lost, and makes one where there is
   /// none.
@@ -55,8 +65,10 @@ class Link {
   std::uint64_t overwritten() const noexcept { return overwritten_; }
 
   /// The newest parameters (constants) not read yet; `fault` is set with malformed.
-  [[nodiscard]] ReadResult read(wire::CameraParams& into, wire::Fault& fault) noexcept;
-  [[nodiscard]] ReadResult read(wire::CameraConstants& into, wire::Fault& fault) noexcept;
+  [[nodiscard]] ReadResult read(wire::CameraParams& into, transport::Fault& fault) noexcept;
+  [[nodiscard]] ReadResult read(wire::CameraConstants& into, transport::Fault& fault) noexcept;
+  /// The layout of the last record read; before one, the segment's.
+  wire::Layout read_in() const noexcept { return read_in_; }
 
   /// There must be a segment() that is writable(). A segment made later begins with the constants written last.
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraParams&) noexcept;
@@ -66,10 +78,32 @@ class Link {
   void close() noexcept { segment_.reset(); }
 
  private:
+  /// What a look at who is attached saw.
+  struct Look {
+    Attendance attendance;
+    std::uint16_t params = 0, constants = 0;  ///< write counters
+  };
+  /// A segment that was let go of and could not be removed.
+  struct Left {
+    int id = -1;
+    Attendance attendance;
+  };
+
   tl::expected<void, SlotFault> attach(const SegmentLayout* create, Clock::time_point now) noexcept;
   tl::expected<void, SlotFault> check(bool look_up, const SegmentLayout* create, Clock::time_point now) noexcept;
-  void begin_reading() noexcept;
+  void begin_reading(Clock::time_point now) noexcept;
   bool look_due(Clock::time_point now, std::chrono::milliseconds period) noexcept;
+  Look look() const noexcept;
+  bool is_alone_too_long(Clock::time_point now) noexcept;
+  SlotFault let_go() noexcept;
+  bool is_still_deserted() const noexcept;
+  /// The layout that the record in the image is written in; a fault when it reads in none, or in both alike.
+  tl::expected<const SegmentLayout*, transport::Fault> layout_of_params(const RecordImage& image) noexcept;
+  tl::expected<const SegmentLayout*, transport::Fault> layout_of_constants(const RecordImage& image) noexcept;
+  template <typename Record>
+  ReadResult hand_out(const tl::expected<Record, wire::Fault>& record,
+                      const tl::expected<const SegmentLayout*, transport::Fault>& layout, Record& into,
+                      transport::Fault& fault) noexcept;
 
   Options options_;
   std::optional<Segment> segment_;
@@ -78,7 +112,13 @@ class Link {
   std::uint16_t params_read_ = 0;
   std::uint16_t constants_read_ = 0;
   bool constants_unread_ = false;
+  const SegmentLayout* writer_layout_ = nullptr;  // of the records, as far as they have shown it
+  wire::Layout read_in_{};
   bool had_company_ = false;
+  bool has_written_ = false;
+  Look last_look_;
+  std::optional<Clock::time_point> alone_since_;
+  std::optional<Left> left_;
   std::optional<wire::CameraConstants> written_constants_;
   std::uint64_t attached_ = 0;
   std::uint64_t overwritten_ = 0;

@@ -14,7 +14,7 @@ namespace trk_bridge::shm {
 /// `shm:SLOT?layout=…&mode=…&recreate=1`, slots 0 to 61. The options are for writing.
 struct Settings {
   int slot = 0;
-  wire::LayoutChoice layout;  ///< of a segment that is created; what is not given is the document's, LP64
+  wire::LayoutChoice layout;  ///< of a segment that is created; what is not given is default_layout's
   int mode = 0666;            ///< permissions of a segment that is created, to 0777
   bool recreate = false;      ///< the document's trkMemRecreate
 };

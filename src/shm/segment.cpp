@@ -16,10 +16,9 @@
 namespace trk_bridge::shm {
 namespace {
 
-constexpr wire::ByteOrder native_order =
-    __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? wire::ByteOrder::little : wire::ByteOrder::big;
-
-constexpr wire::Layout record(wire::Generation generation, wire::Abi abi) { return {generation, abi, native_order}; }
+constexpr wire::Layout record(wire::Generation generation, wire::Abi abi) {
+  return {generation, abi, default_layout.byte_order};
+}
 
 constexpr std::array<SegmentLayout, 4> layouts{{
     {544, record(wire::Generation::identified, wire::Abi::lp64), 8, 8, 12, 14, 200, 64, {16, 216}, {416, 480}},
@@ -35,17 +34,31 @@ constexpr bool is_tight(const SegmentLayout& l) {
          l.constants_counter == l.params_counter + 2 && l.params[0] == l.constants_counter + 2 &&
          l.params[1] == l.params[0] + l.params_size && l.constants[0] == l.params[1] + l.params_size &&
          l.constants[1] == l.constants[0] + l.constants_size && l.size == l.constants[1] + l.constants_size &&
-         l.params_size % 4 == 0 && l.constants_size % 4 == 0 && l.params[0] % 4 == 0 &&
-         l.params_size <= sizeof(RecordImage::bytes);
+         l.params_size % 4 == 0 && l.constants_size % 4 == 0 && l.params[0] % 4 == 0;
 }
 static_assert(is_tight(layouts[0]) && is_tight(layouts[1]) && is_tight(layouts[2]) && is_tight(layouts[3]));
 
+/// Where a current record lies, in a segment's own layout or in that of the other generation.
+struct Range {
+  std::size_t begin, end;
+};
+constexpr Range range_of(const std::array<std::size_t, 2>& own, std::size_t own_size,
+                         const std::array<std::size_t, 2>& other, std::size_t other_size, std::size_t element) {
+  return {std::min(own[element], other[element]), std::max(own[element] + own_size, other[element] + other_size)};
+}
+constexpr bool fit_together(const SegmentLayout& l, const SegmentLayout& smaller) {
+  for (const std::size_t element : {0U, 1U}) {
+    const Range params = range_of(l.params, l.params_size, smaller.params, smaller.params_size, element);
+    const Range constants = range_of(l.constants, l.constants_size, smaller.constants, smaller.constants_size, element);
+    const std::size_t room = sizeof(RecordImage::bytes);
+    if (params.end - params.begin > room || constants.end - constants.begin > room) return false;
+  }
+  return l.magic_size == smaller.magic_size && l.params_counter == smaller.params_counter && l.size > smaller.size;
+}
+static_assert(fit_together(layouts[0], layouts[1]) && fit_together(layouts[2], layouts[3]));
+
 // A copy takes well under a microsecond: a writer that disturbs this many in a row is not a tracker.
 constexpr int copy_attempts = 64;
-// Attaching and making interleave with other programs that do the same.
-constexpr int open_attempts = 1000;
-constexpr int unfinished_waits = 200;
-constexpr timespec unfinished_wait{0, 1'000'000};
 
 void* const no_memory = reinterpret_cast<void*>(-1);
 
@@ -91,12 +104,27 @@ bool means(int slot, int id) noexcept {
   return found && found->id == id;
 }
 
-// The file first: whoever creates the slot again in between then takes a new file, with another key.
-void remove_if_last(int slot, int id) noexcept {
+bool is_deserted(int id) noexcept {
   shmid_ds state{};
-  if (::shmctl(id, IPC_STAT, &state) != 0 || state.shm_nattch != 0 || !may_remove(state)) return;
-  if (means(slot, id)) ::unlink(SlotPath(slot).c_str());
-  ::shmctl(id, IPC_RMID, nullptr);
+  return ::shmctl(id, IPC_STAT, &state) == 0 && state.shm_nattch == 0 && may_remove(state);
+}
+
+// The file goes first: who opens the slot from then on makes a new file, with another key, and who had come to this
+// segment before is seen by a second look. What is left is one that attaches between that look and the removal. A file
+// that may not be moved stays with its segment: programs of the field cannot open a slot that has a file alone.
+void remove_if_last(int slot, int id) noexcept {
+  if (!is_deserted(id)) return;
+  if (!means(slot, id)) {
+    ::shmctl(id, IPC_RMID, nullptr);
+    return;
+  }
+  const auto spare = SpareFile::make(slot);
+  if (!spare || !spare->take_slot_file()) return;
+  if (is_deserted(id)) {
+    ::shmctl(id, IPC_RMID, nullptr);
+  } else {
+    static_cast<void>(spare->become_slot_file());
+  }
 }
 
 struct Mapping {
@@ -142,6 +170,13 @@ const SegmentLayout* layout_of_size(std::size_t size) noexcept {
 const SegmentLayout* layout_of(wire::Layout record) noexcept {
   const auto found =
       std::find_if(layouts.begin(), layouts.end(), [&](const SegmentLayout& l) { return l.record == record; });
+  return found == layouts.end() ? nullptr : &*found;
+}
+
+const SegmentLayout* smaller_generation(const SegmentLayout& layout) noexcept {
+  const auto found = std::find_if(layouts.begin(), layouts.end(), [&](const SegmentLayout& l) {
+    return l.size < layout.size && l.record.abi == layout.record.abi;
+  });
   return found == layouts.end() ? nullptr : &*found;
 }
 
@@ -236,41 +271,32 @@ tl::expected<Segment, SlotFault> Segment::adopt(int slot) noexcept {
 }
 
 tl::expected<Segment, SlotFault> Segment::attach_or_create(int slot, const SegmentLayout& layout, int mode) noexcept {
-  bool own_file = false;
-  int waits = 0;
-  SlotFault last = slot_fault(SlotProblem::exists, slot);
-  for (int attempt = 0; attempt < open_attempts;) {
-    auto segment = attach(slot);
-    if (!segment && segment.error().problem == SlotProblem::unfinished && waits++ < unfinished_waits) {
-      ::nanosleep(&unfinished_wait, nullptr);
-      continue;
-    }
-    ++attempt;
-    if (!segment && segment.error().problem == SlotProblem::unfinished) segment = adopt(slot);
-    if (!segment && segment.error().problem == SlotProblem::no_file) {
-      const auto made = make_slot_file(slot);
-      if (!made) return tl::unexpected(made.error());
-      own_file = own_file || *made;
-    }
-    if (!segment && is_absence(segment.error().problem) && segment.error().problem != SlotProblem::unfinished) {
-      segment = create(slot, layout, mode);
-    }
-    if (segment) return segment;
-    last = segment.error();
-    if (last.problem == SlotProblem::exists || is_absence(last.problem)) continue;
-    // A key that is of no use is a matter of the file's inode, and nobody else can share this file yet.
-    const bool unlucky = last.problem == SlotProblem::foreign || last.problem == SlotProblem::key_shared;
-    if (last.problem != SlotProblem::key_zero && !(unlucky && own_file)) return tl::unexpected(last);
-    if (const auto renewed = renew_slot_file(slot); !renewed) return tl::unexpected(renewed.error());
-    own_file = true;
+  auto segment = attach(slot);
+  if (segment) return segment;
+  const SlotProblem problem = segment.error().problem;
+  if (problem == SlotProblem::unfinished) return adopt(slot);
+  if (problem == SlotProblem::no_file || problem == SlotProblem::key_zero) {
+    const bool replace = problem == SlotProblem::key_zero;
+    if (const auto made = make_slot_file(slot, replace); !made) return tl::unexpected(made.error());
+  } else if (problem != SlotProblem::no_segment) {
+    return segment;
   }
-  return tl::unexpected(last);
+  segment = create(slot, layout, mode);
+  const bool others_did = !segment && segment.error().problem == SlotProblem::exists;
+  return others_did ? attach(slot) : std::move(segment);
 }
 
 void Segment::count_in() noexcept {
   if (!writable_) return;
-  __atomic_add_fetch(at<std::int32_t>(base_, layout_->connected), 1, __ATOMIC_ACQ_REL);
+  auto* const connected = at<std::int32_t>(base_, layout_->connected);
+  __atomic_add_fetch(connected, 1, __ATOMIC_ACQ_REL);
   counted_ = true;
+  // Only as it was seen: who counts in or out at this moment counts on from the true number.
+  std::int32_t seen = __atomic_load_n(connected, __ATOMIC_ACQUIRE);
+  const auto truth = static_cast<std::int32_t>(attachments());
+  if (truth > 0 && seen != truth) {
+    __atomic_compare_exchange_n(connected, &seen, truth, false, __ATOMIC_ACQ_REL, __ATOMIC_RELAXED);
+  }
 }
 
 // Magic last: with it the segment can be used by others.
@@ -302,10 +328,12 @@ std::int32_t Segment::connected() const noexcept {
   return __atomic_load_n(at<std::int32_t>(base_, layout_->connected), __ATOMIC_ACQUIRE);
 }
 
-std::size_t Segment::attachments() const noexcept {
+Attendance Segment::attendance() const noexcept {
   shmid_ds state{};
-  return ::shmctl(id_, IPC_STAT, &state) == 0 ? state.shm_nattch : 0;
+  return ::shmctl(id_, IPC_STAT, &state) == 0 ? attendance_of(state) : Attendance{};
 }
+
+bool Segment::has_32_bit_program() const noexcept { return magic_in(base_, *layout_) != segment_magic; }
 
 SegmentFate Segment::fate(bool look_up) const noexcept {
   shmid_ds state{};
@@ -327,13 +355,19 @@ std::uint16_t Segment::constants_counter() const noexcept {
   return __atomic_load_n(at<std::uint16_t>(base_, layout_->constants_counter), __ATOMIC_ACQUIRE);
 }
 
-bool Segment::copy(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::size_t size,
-                   RecordImage& into) const noexcept {
+bool Segment::copy(std::size_t counter_at, std::array<std::size_t, 2> SegmentLayout::*elements,
+                   std::size_t SegmentLayout::*size, RecordImage& into) const noexcept {
   const auto* counter = at<std::uint16_t>(base_, counter_at);
-  into.size = size;
+  const SegmentLayout* const smaller = smaller_generation(*layout_);
+  const SegmentLayout& other = smaller != nullptr ? *smaller : *layout_;
+  into.size = layout_->*size;
   for (int i = 0; i < copy_attempts; ++i) {
     into.counter = __atomic_load_n(counter, __ATOMIC_ACQUIRE);
-    copy_words_out(base_ + elements[into.counter & 1U], size, into.bytes.data());
+    const std::size_t element = into.counter & 1U;
+    const Range range = range_of(layout_->*elements, layout_->*size, other.*elements, other.*size, element);
+    into.begin = range.begin;
+    into.at = (layout_->*elements)[element];
+    copy_words_out(base_ + range.begin, range.end - range.begin, into.bytes.data());
     std::atomic_thread_fence(std::memory_order_acquire);
     if (__atomic_load_n(counter, __ATOMIC_RELAXED) == into.counter) return true;
   }
@@ -341,11 +375,11 @@ bool Segment::copy(std::size_t counter_at, const std::array<std::size_t, 2>& ele
 }
 
 bool Segment::copy_params(RecordImage& into) const noexcept {
-  return copy(layout_->params_counter, layout_->params, layout_->params_size, into);
+  return copy(layout_->params_counter, &SegmentLayout::params, &SegmentLayout::params_size, into);
 }
 
 bool Segment::copy_constants(RecordImage& into) const noexcept {
-  return copy(layout_->constants_counter, layout_->constants, layout_->constants_size, into);
+  return copy(layout_->constants_counter, &SegmentLayout::constants, &SegmentLayout::constants_size, into);
 }
 
 void Segment::put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept {

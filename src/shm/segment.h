@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <ctime>
 #include <string>
 #include <string_view>
 
@@ -32,10 +33,18 @@ struct SegmentLayout {
   std::array<std::size_t, 2> params, constants;
 };
 
+/// What segments are made of where nobody says otherwise: every program of today can attach to it.
+inline constexpr wire::Layout default_layout{
+    wire::Generation::identified, wire::Abi::lp64,
+    __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? wire::ByteOrder::little : wire::ByteOrder::big};
+
 /// Null when no segment has this size.
 const SegmentLayout* layout_of_size(std::size_t) noexcept;
 /// Null when no segment on this machine has this record layout.
 const SegmentLayout* layout_of(wire::Layout) noexcept;
+/// The layout of the other generation when its programs can attach to a segment of this one, which is larger; they find
+/// the counters where it has them, and write records of their own. Null when there is none.
+const SegmentLayout* smaller_generation(const SegmentLayout&) noexcept;
 
 /// The slot's file, "/tmp/dmc_tracking_buffer.7". The slot must be valid.
 std::string slot_path(int slot);
@@ -46,10 +55,12 @@ enum class SlotProblem : std::uint8_t {
   no_file,     ///< nobody has opened the slot
   no_segment,  ///< the file is there, the segment is not
   unfinished,  ///< a segment that is all zero: being created, or its creator died
+  deserted,    ///< a reader let go of the segment, and nobody has attached since
   foreign,     ///< a segment under the slot's key that is not trk: `size`, and `magic` where the size was right
   not_a_file,  ///< something else has the slot file's name
   key_zero,    ///< ftok gives 0, which the kernel takes for "private"
   key_shared,  ///< `other_slot` has the same key
+  no_key,      ///< every new file has the key of another segment
   exists,      ///< somebody else made the segment at the same moment
   system,      ///< the kernel refused: `error_number`
 };
@@ -72,17 +83,38 @@ std::string describe(const SlotFault&);
 
 /// Whether the fault is that there is nothing yet, so that waiting makes sense.
 constexpr bool is_absence(SlotProblem p) noexcept {
-  return p == SlotProblem::no_file || p == SlotProblem::no_segment || p == SlotProblem::unfinished;
+  return p == SlotProblem::no_file || p == SlotProblem::no_segment || p == SlotProblem::unfinished ||
+         p == SlotProblem::deserted;
 }
+/// Whether the next look may well find, or make, a segment without anybody having mended anything.
+constexpr bool is_transient(SlotProblem p) noexcept { return is_absence(p) || p == SlotProblem::exists; }
 
-/// A record as it lies in a segment, and the write counter it was current at.
+/// A record as it lies in a segment, and the write counter it was current at; with it the bytes around it that the
+/// current record of smaller_generation() has.
 struct RecordImage {
   std::array<char, 256> bytes{};
-  std::size_t size = 0;
+  std::size_t begin = 0;  ///< where `bytes` begin in the segment
+  std::size_t at = 0, size = 0;
   std::uint16_t counter = 0;
 
-  std::string_view view() const noexcept { return {bytes.data(), size}; }
+  /// The record in the segment's own layout.
+  std::string_view view() const noexcept { return part(at, size); }
+  /// What lies from `from` on in the segment, which must be within the bytes copied.
+  std::string_view part(std::size_t from, std::size_t length) const noexcept {
+    return {bytes.data() + (from - begin), length};
+  }
 };
+
+/// Who is attached to a segment, as the kernel has it. Equal ones: nobody came or went, but for a process that came
+/// twice within a second.
+struct Attendance {
+  std::size_t attachments = 0;  ///< 0 also when the kernel cannot say
+  pid_t last = 0;               ///< process that attached or detached last
+  std::time_t attached = 0, detached = 0;
+};
+inline bool operator==(const Attendance& a, const Attendance& b) noexcept {
+  return a.attachments == b.attachments && a.last == b.last && a.attached == b.attached && a.detached == b.detached;
+}
 
 /// What has become of an attached segment.
 enum class SegmentFate : std::uint8_t {
@@ -93,17 +125,19 @@ enum class SegmentFate : std::uint8_t {
 
 /// One attachment. `connected` in the segment goes up with it and down when it ends; the last attachment of any process
 /// removes segment and file. Who is last is the kernel's attach count, not `connected`, which dead processes leave too
-/// high. A segment without write permission is attached for reading alone and its `connected` left as it is. In a child
-/// after fork() the copy only lets go of the memory.
+/// high: attaching sets it to the kernel's count where the two differ. A segment without write permission is attached
+/// for reading alone and its `connected` left as it is. In a child after fork() the copy only lets go of the memory.
 ///
 /// Functions may be called from any thread that has the object to itself; any number of processes read one segment
-/// while one writes. Nothing allocates but describe().
+/// while one writes. Nothing allocates but describe(). Nothing waits or sleeps: attaching looks once, making tries
+/// once, copying gives up after 64 copies that a writer disturbed, all together well under a millisecond of system
+/// calls.
 class Segment {
  public:
   /// Attaches to the slot's segment. A segment that is not trk in size and magic is left exactly as it is.
   [[nodiscard]] static tl::expected<Segment, SlotFault> attach(int slot) noexcept;
-  /// Attaches, or makes file and segment where there is none. `mode` is the new segment's, whatever the umask. Waits up
-  /// to 200 ms for another maker to finish; takes over from one that died half way.
+  /// Attaches, or makes file and segment where there is none. `mode` is the new segment's, whatever the umask. Takes
+  /// over from a maker that died half way. Where others make or remove it at this moment, the fault is_transient().
   [[nodiscard]] static tl::expected<Segment, SlotFault> attach_or_create(int slot, const SegmentLayout&,
                                                                          int mode) noexcept;
 
@@ -119,8 +153,12 @@ class Segment {
   bool writable() const noexcept { return writable_; }
 
   std::int32_t connected() const noexcept;
-  /// How many attachments the kernel counts, this one included; 0 when it cannot say.
-  std::size_t attachments() const noexcept;
+  /// This attachment included.
+  Attendance attendance() const noexcept;
+  std::size_t attachments() const noexcept { return attendance().attachments; }
+  /// Whether a 32-bit program is attached to a segment of 64-bit programs: its `connected` is where their magic ends.
+  /// It counts and writes elsewhere, so that its records are not seen here.
+  bool has_32_bit_program() const noexcept;
   /// `look_up`: ask for the slot's file and key, too; without it only `removed` is noticed, by one system call.
   SegmentFate fate(bool look_up) const noexcept;
 
@@ -144,8 +182,8 @@ class Segment {
   Segment(int slot, int id, char* base, const SegmentLayout& layout, bool writable) noexcept;
   static tl::expected<Segment, SlotFault> create(int slot, const SegmentLayout&, int mode) noexcept;
   static tl::expected<Segment, SlotFault> adopt(int slot) noexcept;
-  bool copy(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::size_t size,
-            RecordImage& into) const noexcept;
+  bool copy(std::size_t counter_at, std::array<std::size_t, 2> SegmentLayout::*elements,
+            std::size_t SegmentLayout::*size, RecordImage& into) const noexcept;
   void put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept;
   void count_in() noexcept;
   void finish() noexcept;

@@ -13,8 +13,6 @@ using transport::SinkReason;
 using transport::TransportError;
 using transport::Written;
 
-constexpr wire::Layout default_layout{wire::Generation::document, wire::Abi::lp64, wire::ByteOrder::little};
-
 Link::Options options_of(const Settings& settings) {
   const std::string slot = "shm slot " + std::to_string(settings.slot);
   const wire::Layout record = wire::resolve(settings.layout, default_layout);
@@ -35,14 +33,14 @@ SinkFault fault_of(const SlotFault& fault) noexcept {
 }
 
 /// A segment that was removed or replaced is created again within the write that meets it; `gone` and `system` say that
-/// this failed.
+/// this failed. Nothing waits: where somebody else is making or removing the segment, the next write looks again.
 class ShmSink final : public transport::Sink {
  public:
   explicit ShmSink(const Settings& settings)
       : name_("shm slot " + std::to_string(settings.slot)), link_(options_of(settings)) {
     const auto open = link_.keep_for_writing(Link::Clock::now());
-    if (!open) throw TransportError("shm " + describe(open.error()));
-    if (!link_.segment()->writable()) throw TransportError(name_ + ": no permission to write to the segment");
+    if (!open && !is_transient(open.error().problem)) throw TransportError("shm " + describe(open.error()));
+    if (open && !link_.segment()->writable()) throw TransportError(name_ + ": no permission to write to the segment");
   }
 
   std::string name() const override { return name_; }

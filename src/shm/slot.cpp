@@ -37,6 +37,8 @@ std::string describe_problem(const SlotFault& f) {
       return "no segment";
     case SlotProblem::unfinished:
       return "segment of " + size + " bytes is all zero: its maker has not finished it";
+    case SlotProblem::deserted:
+      return "nobody has attached to its segment";
     case SlotProblem::foreign:
       if (layout_of_size(f.size) == nullptr) return "segment of " + size + " bytes is no trk layout";
       return "segment of " + size + " bytes begins with " + hexadecimal(f.magic) + " instead of " +
@@ -48,6 +50,8 @@ std::string describe_problem(const SlotFault& f) {
     case SlotProblem::key_shared:
       return "has the same key as slot " + std::to_string(f.other_slot) + "; delete " + slot_path(f.slot) + " or " +
              slot_path(f.other_slot) + ", whichever is not in use";
+    case SlotProblem::no_key:
+      return "every new file in /tmp has the key of another segment";
     case SlotProblem::exists:
       return "another program makes and removes the segment at the same time";
     case SlotProblem::system:
@@ -88,32 +92,6 @@ tl::expected<key_t, SlotFault> slot_key(int slot) noexcept {
   return key;
 }
 
-tl::expected<bool, SlotFault> make_slot_file(int slot) noexcept {
-  const SlotPath path(slot);
-  const int fd = ::open(path.c_str(), O_CREAT | O_EXCL | O_RDWR | O_NOFOLLOW | O_CLOEXEC, file_mode);
-  if (fd < 0) {
-    if (errno == EEXIST) return false;
-    return tl::unexpected(system_fault(slot));
-  }
-  ::close(fd);
-  return true;
-}
-
-tl::expected<void, SlotFault> renew_slot_file(int slot) noexcept {
-  const SlotPath path(slot);
-  // Made while the old one still is, so that the inode cannot be the same.
-  std::array<char, 48> fresh{};
-  std::snprintf(fresh.data(), fresh.size(), "%s.XXXXXX", path.c_str());
-  const int fd = ::mkostemp(fresh.data(), O_CLOEXEC);
-  if (fd < 0) return tl::unexpected(system_fault(slot));
-  const bool ready = ::fchmod(fd, file_mode) == 0;
-  ::close(fd);
-  if (ready && ::rename(fresh.data(), path.c_str()) == 0) return {};
-  const SlotFault fault = system_fault(slot);
-  ::unlink(fresh.data());
-  return tl::unexpected(fault);
-}
-
 tl::expected<void, SlotFault> check_unshared(int slot, key_t key) noexcept {
   for (int other = 0; other < slot_count; ++other) {
     if (other == slot || slot_key(other).value_or(IPC_PRIVATE) != key) continue;
@@ -122,6 +100,55 @@ tl::expected<void, SlotFault> check_unshared(int slot, key_t key) noexcept {
     return tl::unexpected(fault);
   }
   return {};
+}
+
+SpareFile::SpareFile(int slot) noexcept : slot_(slot) {
+  std::snprintf(name_.data(), name_.size(), "%s.XXXXXX", SlotPath(slot).c_str());
+}
+
+tl::expected<SpareFile, SlotFault> SpareFile::make(int slot) noexcept {
+  SpareFile spare(slot);
+  const int fd = ::mkostemp(spare.name_.data(), O_CLOEXEC);
+  if (fd < 0) {
+    const SlotFault fault = system_fault(slot);
+    spare.name_[0] = '\0';
+    return tl::unexpected(fault);
+  }
+  const bool ready = ::fchmod(fd, file_mode) == 0;
+  const SlotFault fault = system_fault(slot);
+  ::close(fd);
+  if (!ready) return tl::unexpected(fault);
+  return spare;
+}
+
+SpareFile::~SpareFile() {
+  if (name_[0] != '\0') ::unlink(name_.data());
+}
+
+bool SpareFile::replace_slot_file() const noexcept { return ::rename(c_str(), SlotPath(slot_).c_str()) == 0; }
+bool SpareFile::become_slot_file() const noexcept { return ::link(c_str(), SlotPath(slot_).c_str()) == 0; }
+bool SpareFile::take_slot_file() const noexcept { return ::rename(SlotPath(slot_).c_str(), c_str()) == 0; }
+
+tl::expected<bool, SlotFault> make_slot_file(int slot, bool replace) noexcept {
+  // Those that are of no use stay until the end, so that the next has another inode.
+  std::array<std::optional<SpareFile>, 8> spares;
+  for (auto& spare : spares) {
+    auto made = SpareFile::make(slot);
+    if (!made) return tl::unexpected(made.error());
+    spare.emplace(std::move(*made));
+    const key_t key = ::ftok(spare->c_str(), 0);
+    const bool usable =
+        key != -1 && key != IPC_PRIVATE && check_unshared(slot, key) && ::shmget(key, 0, 0) < 0 && errno == ENOENT;
+    if (!usable) continue;
+    if (replace ? spare->replace_slot_file() : spare->become_slot_file()) return true;
+    if (errno == EEXIST) return false;
+    return tl::unexpected(system_fault(slot));
+  }
+  return tl::unexpected(slot_fault(SlotProblem::no_key, slot));
+}
+
+Attendance attendance_of(const shmid_ds& state) noexcept {
+  return {state.shm_nattch, state.shm_lpid, state.shm_atime, state.shm_dtime};
 }
 
 tl::expected<FoundSegment, SlotFault> find_segment(int slot) noexcept {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <sys/ipc.h>
 #include <sys/shm.h>
@@ -30,13 +31,38 @@ class SlotPath {
 /// The key of the slot's file: a fault when there is no such regular file, or the key is of no use.
 [[nodiscard]] tl::expected<key_t, SlotFault> slot_key(int slot) noexcept;
 
-/// Makes the slot's file. False when there is one already.
-[[nodiscard]] tl::expected<bool, SlotFault> make_slot_file(int slot) noexcept;
-/// Puts a file with another inode, and so with another key, in the place of the slot's.
-[[nodiscard]] tl::expected<void, SlotFault> renew_slot_file(int slot) noexcept;
+/// A file beside the slot's, to change places with it. Deleted in the end.
+class SpareFile {
+ public:
+  [[nodiscard]] static tl::expected<SpareFile, SlotFault> make(int slot) noexcept;
+  SpareFile(SpareFile&& other) noexcept : slot_(other.slot_), name_(other.name_) { other.name_[0] = '\0'; }
+  SpareFile& operator=(SpareFile&&) = delete;
+  ~SpareFile();
+
+  const char* c_str() const noexcept { return name_.data(); }
+  /// Is the slot's file from now on, in the place of one that is there.
+  bool replace_slot_file() const noexcept;
+  /// Is the slot's file as well; not where there is one: false, with EEXIST in errno.
+  bool become_slot_file() const noexcept;
+  /// The slot's file is this one from now on, so that nobody finds it. False when it is gone, or somebody else's.
+  bool take_slot_file() const noexcept;
+
+ private:
+  explicit SpareFile(int slot) noexcept;
+
+  int slot_;
+  std::array<char, 48> name_{};
+};
+
+/// Makes the slot's file, with `replace` in the place of one whose key is of no use. Its key is not 0, is no other
+/// slot's and leads to no segment: an inode used again would lead into the segment of a slot whose file was deleted.
+/// False when there is a file already.
+[[nodiscard]] tl::expected<bool, SlotFault> make_slot_file(int slot, bool replace) noexcept;
 
 /// A fault when another slot's file has this key.
 [[nodiscard]] tl::expected<void, SlotFault> check_unshared(int slot, key_t key) noexcept;
+
+Attendance attendance_of(const shmid_ds& state) noexcept;
 
 struct FoundSegment {
   key_t key;

@@ -19,12 +19,14 @@ using transport::Event;
 using transport::SourceState;
 
 // How late a record is seen at most. Nothing wakes a reader of shared memory, so it has to look.
+// A segment full of what is no record is not looked at more often either.
 constexpr nanoseconds poll_period = std::chrono::microseconds(250);
 
 /// Whether a segment is attached.
 struct Attachment {
   std::uint64_t attached = 0, overwritten = 0;
   bool absent = true;
+  bool has_32_bit_program = false;
   SlotFault why{SlotProblem::no_file};
 };
 
@@ -48,7 +50,9 @@ class ShmSource final : public transport::CountedSource {
     for (auto now = begin;; now = Clock::now()) {
       if (const Event end = final_event(); end != Event::sample) return end;
       keep(now);
-      if (const Event event = look(into); event != Event::idle) return event;
+      if (now >= next_look_) {
+        if (const Event event = look(into); event != Event::idle) return event;
+      }
       const bool endless = wait < nanoseconds::zero();
       // As a difference, for `begin + wait` may be past what the clock can represent.
       const nanoseconds left = endless ? nanoseconds::max() : wait - (Clock::now() - begin);
@@ -65,36 +69,37 @@ class ShmSource final : public transport::CountedSource {
  private:
   void keep(Clock::time_point now) {
     const auto kept = link_.keep(now);
+    const bool has_32_bit_program = link_.segment() != nullptr && link_.segment()->has_32_bit_program();
     const bool changed = attachment_.absent == kept.has_value() || attachment_.attached != link_.attached() ||
+                         attachment_.has_32_bit_program != has_32_bit_program ||
                          (!kept && !(attachment_.why == kept.error()));
     if (!changed) return;
     attachment_.absent = !kept;
     if (!kept) attachment_.why = kept.error();
     attachment_.attached = link_.attached();
+    attachment_.has_32_bit_program = has_32_bit_program;
     published_.store(attachment_);
   }
 
   /// Constants first: what follows is understood by them.
   Event look(transport::Reception& into) {
-    const Segment* segment = link_.segment();
-    if (segment == nullptr) return Event::idle;
-    wire::Fault fault{};
-    ReadResult met = link_.read(constants_, fault);
+    if (link_.segment() == nullptr) return Event::idle;
+    ReadResult met = link_.read(constants_, into.fault);
     const bool is_constants = met != ReadResult::nothing;
-    if (!is_constants) met = link_.read(params_, fault);
+    if (!is_constants) met = link_.read(params_, into.fault);
     if (met == ReadResult::nothing) return Event::idle;
     transport::Sample& sample = into.sample;
     sample = {};
     sample.arrival = base::wall_now();
     sample.sender.kind = transport::SenderKind::shm;
     sample.sender.number = static_cast<std::uint32_t>(slot_);
-    sample.origin = transport::origin_of({wire::Encoding::binary, segment->layout().record});
+    sample.origin = transport::origin_of({wire::Encoding::binary, link_.read_in()});
     if (attachment_.overwritten != link_.overwritten()) {
       attachment_.overwritten = link_.overwritten();
       published_.store(attachment_);
     }
     if (met == ReadResult::malformed) {
-      into.fault = fault;
+      next_look_ = Clock::now() + poll_period;
       return malformed();
     }
     if (is_constants) {
@@ -115,11 +120,15 @@ class ShmSource final : public transport::CountedSource {
       statistics.waiting_for = describe(attachment.why);
     } else if (statistics.records == 0) {
       statistics.waiting_for = "slot " + std::to_string(slot_) + ": attached, nothing written yet";
+      if (attachment.has_32_bit_program) {
+        statistics.waiting_for += "; a 32-bit program is attached, and what it writes cannot be found";
+      }
     }
   }
 
   const int slot_;
   Link link_;
+  Clock::time_point next_look_{};
   wire::CameraParams params_;
   wire::CameraConstants constants_;
   Attachment attachment_;

@@ -57,14 +57,15 @@ bool is_plausible(double value) noexcept {
   return !std::isfinite(value) || value == 0 || (magnitude > 1e-50 && magnitude < 1e12);
 }
 
-/// Whether the doubles are ones that a record of this format has.
-bool transform_fits(std::string_view image, Layout layout, std::uint32_t format) noexcept {
+/// Whether the doubles are ones that a record of this format has. `is_matrix` says what is one.
+bool transform_fits(std::string_view image, Layout layout, std::uint32_t format,
+                    bool (*is_matrix)(const std::array<double, 16>&) noexcept) noexcept {
   const ParamsShape shape = params_shape(layout.generation, layout.abi);
   std::array<double, 16> matrix;
   for (std::size_t i = 0; i < matrix.size(); ++i) {
     matrix[i] = load_double(image.data() + shape.transform + i * sizeof(double), layout.byte_order);
   }
-  if (!has(format, euler)) return is_affine(matrix);
+  if (!has(format, euler)) return is_matrix(matrix);
   if (is_rigid(matrix)) return false;
   constexpr std::size_t euler_numbers = 6;
   for (std::size_t i = 0; i < euler_numbers; ++i) {
@@ -91,6 +92,18 @@ Generation likely_generation(std::uint32_t first, std::uint32_t second) noexcept
   return second != 0 || first < camera_numbers ? Generation::identified : Generation::document;
 }
 
+/// The first words of a parameter image; the id is 0 where the generation has none.
+struct Words {
+  std::uint32_t first, second, id, format;
+};
+
+Words words_of(std::string_view image, Layout layout) noexcept {
+  const auto first = load<std::uint32_t>(image.data(), layout.byte_order);
+  const auto second = load<std::uint32_t>(image.data() + 4, layout.byte_order);
+  return layout.generation == Generation::identified ? Words{first, second, first, second}
+                                                     : Words{first, second, 0, first};
+}
+
 /// One way to read a parameter image, and what speaks for it.
 struct Reading {
   Layout layout;
@@ -102,15 +115,12 @@ struct Reading {
 
 Reading rate(std::string_view image, Layout layout, std::optional<Generation> known,
              std::optional<Layout> seen) noexcept {
-  const ParamsShape shape = params_shape(layout.generation, layout.abi);
-  const auto first = load<std::uint32_t>(image.data(), layout.byte_order);
-  const auto second = load<std::uint32_t>(image.data() + 4, layout.byte_order);
-  const auto format = load<std::uint32_t>(image.data() + shape.format, layout.byte_order);
+  const Words words = words_of(image, layout);
   Reading r{layout};
-  r.words = words_grade(layout.generation == Generation::identified ? first : 0, format);
-  r.fits = transform_fits(image, layout, format);
+  r.words = words_grade(words.id, words.format);
+  r.fits = transform_fits(image, layout, words.format, is_affine);
   r.known = r.words > 0 && r.fits && known == layout.generation;
-  const bool likely = layout.generation == likely_generation(first, second);
+  const bool likely = layout.generation == likely_generation(words.first, words.second);
   const bool same_order = seen && seen->byte_order == layout.byte_order;
   const bool little = layout.byte_order == ByteOrder::little;
   // Each outweighs all those behind it.
@@ -144,6 +154,12 @@ bool is_picture_size(std::int32_t value) noexcept {
   return std::abs(static_cast<std::int64_t>(value)) < std::int64_t{small_number};
 }
 
+/// Whether a picture may have these sides.
+bool is_picture(double width, double height) noexcept {
+  constexpr double longest = 8;
+  return width > 0 && height > 0 && width <= longest * height && height <= longest * width;
+}
+
 bool is_valid(const CameraConstants& c) noexcept {
   bool valid = true;
   for_each_image_field([&valid](const Field&, std::int32_t value) { valid = valid && is_picture_size(value); }, c);
@@ -153,6 +169,17 @@ bool is_valid(const CameraConstants& c) noexcept {
 }
 
 }  // namespace
+
+unsigned params_grade(std::string_view image, Layout layout) noexcept {
+  const Words words = words_of(image, layout);
+  return transform_fits(image, layout, words.format, is_rigid) ? words_grade(words.id, words.format) : 0;
+}
+
+unsigned constants_grade(std::string_view image, Layout layout) noexcept {
+  const auto c = constants_from_image(image, layout);
+  if (!c || !is_valid(*c)) return 0;
+  return is_picture(c->image_width, c->image_height) && is_picture(c->chip_width, c->chip_height) ? 2 : 1;
+}
 
 std::uint64_t LayoutDetectorAccess::counter(std::string_view image, Layout& layout, LayoutDetector& detector) noexcept {
   constexpr std::uint64_t most_lost = 0x10000;

@@ -1,4 +1,4 @@
-// Binary records of a sender whose layout is to be detected.
+// Binary records whose layout is to be detected.
 #pragma once
 
 #include <string_view>
@@ -19,5 +19,12 @@ struct LayoutDetectorAccess {
   /// The counter of a 200-byte image, and its abi into `layout`.
   static std::uint64_t counter(std::string_view image, Layout& layout, LayoutDetector& detector) noexcept;
 };
+
+/// How well an image of this layout's size reads in it, for who has more than its size and its sender to go by: 0 no
+/// program writes this, 1 possible, 2 well. Stricter than the detector: a matrix has to be rigid, and the format mask
+/// and the id must not both be beyond what is known.
+[[nodiscard]] unsigned params_grade(std::string_view image, Layout) noexcept;
+/// The same of constants: 2 has a picture and a chip of likely sides, 1 may have zeros there.
+[[nodiscard]] unsigned constants_grade(std::string_view image, Layout) noexcept;
 
 }  // namespace trk_bridge::wire

@@ -50,11 +50,16 @@ class FreeSlot {
     return key == -1 ? -1 : ::shmget(key, 0, 0);
   }
 
-  /// Makes file and segment as another program would. Returns its id.
-  int make_segment(std::size_t size, int mode = 0666) {
-    const int fd = ::open(path().c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0755);
+  /// Nothing where there is one.
+  void make_file() {
+    const int fd = ::open(path().c_str(), O_CREAT | O_RDONLY | O_CLOEXEC, 0755);
     if (fd < 0) throw std::runtime_error("cannot make " + path());
     ::close(fd);
+  }
+
+  /// Makes file and segment as another program would. Returns its id.
+  int make_segment(std::size_t size, int mode = 0666) {
+    make_file();
     const int id = ::shmget(::ftok(path().c_str(), 0), size, IPC_CREAT | IPC_EXCL | mode);
     if (id < 0) throw std::runtime_error("cannot make a segment for " + path());
     return id;

@@ -102,7 +102,10 @@ TEST_F(Confused, a_segment_that_is_being_made_is_waited_for_and_left_alone) {
   EXPECT_EQ(source->statistics().state, SourceState::waiting);
   EXPECT_THAT(source->statistics().waiting_for, HasSubstr("its maker has not finished it"));
   // The maker, this process, lives: a writer does not take over either.
-  EXPECT_THAT(refusal(url), HasSubstr("its maker has not finished it"));
+  const auto sink = open_sink(url);
+  const auto written = sink->write(wire::CameraParams{});
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().reason, SinkReason::gone);
   EXPECT_EQ(contents(id, 528), std::string(528, '\0'));
 }
 

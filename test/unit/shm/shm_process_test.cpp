@@ -150,11 +150,12 @@ TEST(ShmProcesses, eight_readers_of_one_fast_writer_never_see_a_torn_record) {
   };
   std::vector<std::unique_ptr<Child>> readers;
   for (int i = 0; i < 8; ++i) readers.push_back(std::make_unique<Child>(look));
-  ASSERT_TRUE(wait_for([&] { return writer->connected() == 9; }));
+  // Each reader has the writer's attachment, which came along by fork(), and its own.
+  ASSERT_TRUE(wait_for([&] { return writer->attachments() == 1 + 2 * readers.size(); }));
   const auto end = Clock::now() + deadline;
   std::uint64_t written = 0;
-  while ((written < least_writes || writer->connected() > 1) && Clock::now() < end) {
-    ASSERT_TRUE(writer->write(params(++written)));
+  while ((written < least_writes || writer->attachments() > 1) && Clock::now() < end) {
+    for (int i = 0; i < 100; ++i) ASSERT_TRUE(writer->write(params(++written)));
   }
   for (auto& reader : readers) EXPECT_EQ(reader->wait(), 0);
   EXPECT_GE(written, least_writes);
@@ -185,7 +186,7 @@ TEST(ShmProcesses, writers_that_are_killed_leave_whole_records_and_a_usable_slot
     ASSERT_EQ(received, enough) << "round " << round << ": " << source->statistics().waiting_for;
     writer.end();
   }
-  EXPECT_GE(Segment::attach(slot.number())->connected(), 20) << "the dead still count there";
+  EXPECT_EQ(Segment::attach(slot.number())->connected(), 2) << "the dead do not count";
 }
 
 TEST(ShmProcesses, readers_that_are_killed_leave_the_writer_the_last_one) {
@@ -237,6 +238,10 @@ TEST(ShmProcesses, opening_and_closing_against_each_other_loses_nothing) {
   const auto open_and_close = [&] {
     for (int i = 0; i < 300; ++i) {
       auto segment = Segment::attach_or_create(slot.number(), *layout_of_size(528), 0666);
+      const auto end = Clock::now() + deadline;
+      while (!segment && is_transient(segment.error().problem) && Clock::now() < end) {
+        segment = Segment::attach_or_create(slot.number(), *layout_of_size(528), 0666);
+      }
       if (!segment) return 10 + static_cast<int>(segment.error().problem);
       if (!segment->write(params(1))) return 1;
     }

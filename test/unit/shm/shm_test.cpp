@@ -55,7 +55,7 @@ wire::CameraConstants constants(int width = 720) {
 class Shm : public ::testing::Test {
  protected:
   std::string url(const std::string& options = "") const { return "shm:" + std::to_string(slot.number()) + options; }
-  const SegmentLayout& document() const { return *layout_of_size(528); }
+  const SegmentLayout& layout() const { return *layout_of(default_layout); }
 
   /// Receives for as long as the source has something or `done` is not true.
   ::testing::AssertionResult receive_until(Source& source, const std::function<bool(const Sample&)>& done) {
@@ -86,7 +86,7 @@ class Shm : public ::testing::Test {
 };
 
 TEST_F(Shm, what_is_written_is_read) {
-  const auto sink = open_sink(url("?layout=identified"));
+  const auto sink = open_sink(url());
   const auto source = open_source(url());
   auto sent = params(77);
   sent.id = 3;
@@ -179,7 +179,7 @@ TEST_F(Shm, the_last_one_removes_segment_and_file) {
 }
 
 TEST_F(Shm, connected_counts_handles_and_attachments_are_the_truth) {
-  auto first = Segment::attach_or_create(slot.number(), document(), 0666);
+  auto first = Segment::attach_or_create(slot.number(), layout(), 0666);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->connected(), 1);
   auto second = Segment::attach(slot.number());
@@ -190,7 +190,7 @@ TEST_F(Shm, connected_counts_handles_and_attachments_are_the_truth) {
   // A process that died left its count behind.
   auto* memory = static_cast<char*>(::shmat(first->id(), nullptr, 0));
   const std::int32_t too_high = 5;
-  std::memcpy(memory + document().connected, &too_high, sizeof too_high);
+  std::memcpy(memory + layout().connected, &too_high, sizeof too_high);
   ::shmdt(memory);
   first->close();
   EXPECT_EQ(slot.segment(), -1);
@@ -204,7 +204,7 @@ TEST_F(Shm, a_new_segment_has_the_mode_that_was_said_whatever_the_umask) {
   shmid_ds state{};
   ASSERT_EQ(::shmctl(slot.segment(), IPC_STAT, &state), 0);
   EXPECT_EQ(state.shm_perm.mode & 0777, 0664);
-  EXPECT_EQ(state.shm_segsz, 528U);
+  EXPECT_EQ(state.shm_segsz, 544U);
 }
 
 TEST_F(Shm, reattaches_when_the_segment_is_recreated) {
@@ -294,10 +294,13 @@ TEST_F(Shm, an_unsound_record_is_malformed_and_costs_itself_alone) {
   const auto sink = open_sink(url());
   const auto source = open_source(url());
   auto* memory = static_cast<char*>(::shmat(slot.segment(), nullptr, 0));
+  wire::Buffer buffer;
+  const auto image = wire::to_image(params(1), layout().record, buffer);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::uint16_t counter = 1;
-  std::memcpy(memory + document().params[1] + 136, &nan, sizeof nan);
-  std::memcpy(memory + document().params_counter, &counter, sizeof counter);
+  std::memcpy(memory + layout().params[1], image->data(), image->size());
+  std::memcpy(memory + layout().params[1] + 136, &nan, sizeof nan);
+  std::memcpy(memory + layout().params_counter, &counter, sizeof counter);
   ::shmdt(memory);
   ASSERT_EQ(source->receive(into, deadline), Event::malformed);
   EXPECT_STREQ(into.fault.name(), wire::name(wire::Reason::not_finite));

@@ -1,0 +1,346 @@
+// The field's own programs beside ours: who may start, what a program of another generation writes, who is counted.
+#include <chrono>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include "deadline.h"
+#include "field_program.h"
+#include "free_slot.h"
+#include "shm/link.h"
+#include "trk_bridge/endpoints/endpoints.h"
+#include "trk_bridge/transport/sink.h"
+#include "trk_bridge/transport/source.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::shm {
+namespace {
+
+using namespace std::chrono_literals;
+using endpoints::open_sink;
+using endpoints::open_source;
+using test::FieldProgram;
+using ::testing::HasSubstr;
+using transport::Event;
+using transport::Reception;
+using transport::Sample;
+using transport::Source;
+using transport::SourceState;
+using Clock = std::chrono::steady_clock;
+
+const SegmentLayout& of(std::size_t size) { return *layout_of_size(size); }
+
+/// Numbers as cameras have them: none is round.
+wire::CameraParams params(std::uint64_t counter, std::uint32_t format = wire::euler, std::uint32_t id = 0) {
+  const double t = 0.013 * static_cast<double>(counter);
+  wire::CameraParams p;
+  p.id = id;
+  p.format = format;
+  if (wire::has(format, wire::euler)) {
+    p.euler = {1.1 + t, -2.3, 1.7, 30.7 - t, -5.1, 0.3};
+  } else {
+    const double c = std::cos(t), s = std::sin(t);
+    p.matrix = {c, s, 0, 0, -s, c, 0, 0, 0, 0, 1, 0, 1.1 + t, -2.3, 1.7, 1};
+  }
+  p.fov = 42.3;
+  p.center_x = 0.1;
+  p.center_y = -0.07;
+  p.k1 = -1.1e-3;
+  p.k2 = 3.3e-6;
+  p.focdist = 4.6;
+  p.aperture = 2.9;
+  p.counter = counter;
+  return p;
+}
+
+wire::CameraConstants constants(std::uint32_t id = 0) {
+  wire::CameraConstants c;
+  c.id = id;
+  c.image_width = 1920;
+  c.image_height = 1080;
+  c.blank_left = 10;
+  c.blank_right = 12;
+  c.chip_width = c.fake_chip_width = 9.59;
+  c.chip_height = c.fake_chip_height = 5.39;
+  return c;
+}
+
+class Field : public ::testing::Test {
+ protected:
+  std::string url(const std::string& options = "") const { return "shm:" + std::to_string(slot.number()) + options; }
+
+  /// Receives, for as long as `done` is not true.
+  ::testing::AssertionResult receive_until(Source& source, const std::function<bool()>& done) {
+    const auto end = Clock::now() + test::deadline;
+    while (!done()) {
+      if (Clock::now() > end)
+        return ::testing::AssertionFailure() << "not in time; " << source.statistics().waiting_for;
+      static_cast<void>(source.receive(into, 5ms));
+    }
+    return ::testing::AssertionSuccess();
+  }
+  void receive_for(Source& source, std::chrono::milliseconds time) {
+    const auto end = Clock::now() + time;
+    while (Clock::now() < end) static_cast<void>(source.receive(into, 5ms));
+  }
+  std::size_t attachments(int id) const {
+    shmid_ds state{};
+    return ::shmctl(id, IPC_STAT, &state) == 0 ? state.shm_nattch : 0;
+  }
+
+  test::FreeSlot slot;
+  Reception into;
+};
+
+TEST_F(Field, a_new_segment_is_one_that_every_program_of_today_can_open) {
+  const auto sink = open_sink(url());
+  FieldProgram today(slot, of(544)), of_1998(slot, of(528));
+  EXPECT_TRUE(today.open());
+  EXPECT_TRUE(of_1998.open());
+  EXPECT_EQ(today.id(), slot.segment());
+}
+
+TEST_F(Field, a_reader_alone_with_a_segment_lets_a_program_of_a_larger_one_start) {
+  FieldProgram of_1998(slot, of(528));
+  ASSERT_TRUE(of_1998.open());
+  const auto source = open_source(url());
+  ASSERT_TRUE(receive_until(*source, [&] { return attachments(slot.segment()) == 2; }));
+  of_1998.close();
+  ASSERT_TRUE(slot.has_file()) << "as long as the reader is attached";
+  FieldProgram today(slot, of(544));
+  ASSERT_FALSE(today.open()) << "its segment is larger";
+  ASSERT_TRUE(receive_until(*source, [&] { return today.open(); }));
+  EXPECT_EQ(source->statistics().state, SourceState::waiting);
+  today.write(constants());
+  ASSERT_TRUE(receive_until(*source, [&] { return source->statistics().records == 1; }));
+  today.write(params(7));
+  ASSERT_TRUE(receive_until(*source, [&] { return source->statistics().records == 2; }));
+  EXPECT_EQ(std::get<wire::CameraParams>(into.sample.record), params(7));
+  EXPECT_STREQ(into.sample.origin, "binary identified_lp64");
+}
+
+TEST_F(Field, a_reader_alone_leaves_no_segment_and_no_file) {
+  FieldProgram tracker(slot, of(544));
+  ASSERT_TRUE(tracker.open());
+  tracker.write(constants());
+  const auto source = open_source(url());
+  ASSERT_TRUE(receive_until(*source, [&] { return source->statistics().records == 1; }));
+  tracker.close();
+  const auto left = Clock::now();
+  ASSERT_TRUE(receive_until(*source, [&] { return !slot.has_file(); }));
+  EXPECT_GE(Clock::now() - left, Link::alone_limit - Link::check_period) << "a tracker that restarts finds it again";
+  EXPECT_EQ(slot.segment(), -1);
+  EXPECT_EQ(source->statistics().waiting_for, "slot " + std::to_string(slot.number()) + ": no segment");
+}
+
+TEST_F(Field, a_reader_stays_with_a_silent_program_and_with_one_that_comes_for_a_moment) {
+  FieldProgram silent(slot, of(544));
+  ASSERT_TRUE(silent.open());
+  const auto source = open_source(url());
+  const int id = silent.id();
+  receive_for(*source, 1500ms);
+  EXPECT_EQ(slot.segment(), id);
+  EXPECT_EQ(attachments(id), 2U);
+  silent.close();
+  for (std::uint64_t i = 1; i <= 6; ++i) {
+    receive_for(*source, 400ms);
+    FieldProgram visitor(slot, of(544));
+    ASSERT_TRUE(visitor.open());
+    ASSERT_EQ(visitor.id(), id) << "visit " << i;
+    visitor.write(params(i));
+  }
+  receive_for(*source, 100ms);
+  EXPECT_EQ(source->statistics().records, 6U);
+  EXPECT_EQ(source->statistics().reattached, 0U);
+}
+
+TEST_F(Field, a_writer_alone_keeps_its_segment) {
+  const auto sink = open_sink(url());
+  const int id = slot.segment();
+  Link both({slot.number(), &of(544), 0666, false});
+  ASSERT_TRUE(both.keep_for_writing(Clock::now()));
+  ASSERT_TRUE(sink->close());
+  ASSERT_TRUE(both.write(params(1)));
+  const auto now = Clock::now();
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(both.keep(now + i * 200ms)) << "it may read as well";
+  EXPECT_EQ(slot.segment(), id);
+}
+
+TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_let_go_of_and_read_again) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can be two users";
+  FieldProgram tracker(slot, of(544));
+  ASSERT_TRUE(tracker.open());
+  const int id = tracker.id();
+  constexpr int good = 0, not_let_go = 1, no_record = 2;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    // What the parent has attached came along by fork().
+    tracker.connected() += 1;
+    tracker.close();
+    if (::setuid(65534) != 0) ::_exit(98);
+    const auto source = open_source(url());
+    if (!receive_until(*source, [&] { return source->statistics().records == 1; })) ::_exit(no_record);
+    if (!receive_until(*source, [&] { return attachments(id) == 0; })) ::_exit(not_let_go);
+    if (source->statistics().waiting_for.find("nobody has attached to its segment") == std::string::npos) ::_exit(3);
+    // What came while nobody was attached is read as well.
+    if (!receive_until(*source, [&] { return source->statistics().records == 2; })) ::_exit(no_record);
+    ::_exit(std::get<wire::CameraParams>(into.sample.record) == params(2) ? good : 4);
+  }
+  const auto wait_for = [](const std::function<bool()>& done) {
+    const auto end = Clock::now() + test::deadline;
+    while (!done() && Clock::now() < end) std::this_thread::sleep_for(1ms);
+    return done();
+  };
+  EXPECT_TRUE(wait_for([&] { return tracker.connected() == 2; }));
+  tracker.write(params(1));
+  tracker.connected() += 1;  // so that closing leaves the segment
+  std::this_thread::sleep_for(50ms);
+  tracker.close();
+  EXPECT_TRUE(wait_for([&] { return attachments(id) == 0; }));
+  EXPECT_EQ(slot.segment(), id) << "it is another user's";
+  // The kernel's times are in seconds.
+  std::this_thread::sleep_for(1100ms);
+  ASSERT_TRUE(tracker.open());
+  tracker.write(params(2));
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(WEXITSTATUS(status), good);
+}
+
+TEST_F(Field, connected_is_set_right_by_everybody_of_ours_who_attaches) {
+  FieldProgram tracker(slot, of(544));
+  ASSERT_TRUE(tracker.open());
+  tracker.connected() = 20;  // the dead
+  const auto first = Segment::attach(slot.number());
+  ASSERT_TRUE(first);
+  EXPECT_EQ(tracker.connected(), 2);
+  tracker.connected() = 20;
+  const auto second = open_sink(url());
+  EXPECT_EQ(tracker.connected(), 3);
+  tracker.connected() = 0;
+  const auto third = open_source(url());
+  EXPECT_EQ(tracker.connected(), 4);
+}
+
+TEST_F(Field, a_tracker_is_the_last_one_again_though_others_died) {
+  FieldProgram tracker(slot, of(544));
+  ASSERT_TRUE(tracker.open());
+  tracker.connected() += 3;
+  open_source(url()).reset();
+  EXPECT_EQ(tracker.connected(), 1);
+  tracker.close();
+  EXPECT_FALSE(slot.has_file());
+}
+
+/// A program that attaches to a segment that is larger than its own.
+struct Guest {
+  std::size_t host, own;
+  std::uint32_t format, id;
+  bool has_constants;
+  std::uint64_t read_at_least;  ///< of 199 sets
+};
+std::ostream& operator<<(std::ostream& out, const Guest& g) {
+  return out << g.own << "_in_" << g.host << "_format_" << std::hex << g.format << std::dec << "_id_" << g.id
+             << (g.has_constants ? "" : "_without_constants");
+}
+
+class Guests : public Field, public ::testing::WithParamInterface<Guest> {};
+
+TEST_P(Guests, nothing_is_read_that_was_never_sent) {
+  const Guest& guest = GetParam();
+  const auto host = Segment::attach_or_create(slot.number(), of(guest.host), 0666);
+  ASSERT_TRUE(host);
+  const auto source = open_source(url());
+  FieldProgram program(slot, of(guest.own));
+  ASSERT_TRUE(program.open());
+  std::uint64_t wrong = 0, right = 0;
+  const auto sent_constants = constants(guest.id);
+  const auto read_all = [&](const wire::CameraParams* last) {
+    for (Event event = Event::malformed; event != Event::idle;) {
+      // What is malformed is looked at less often.
+      event = source->receive(into, source->statistics().malformed > 0 ? 300us : 0us);
+      if (event != Event::sample) continue;
+      const auto* p = std::get_if<wire::CameraParams>(&into.sample.record);
+      const bool is_sent = p != nullptr ? last != nullptr && *p == *last
+                                        : std::get<wire::CameraConstants>(into.sample.record) == sent_constants;
+      ++(is_sent ? right : wrong);
+    }
+  };
+  if (guest.has_constants) program.write(sent_constants);
+  read_all(nullptr);
+  for (std::uint64_t i = 1; i <= 199; ++i) {
+    const auto sent = params(i, guest.format, guest.id);
+    program.write(sent);
+    read_all(&sent);
+    // Programs that come later repeat them.
+    if (guest.has_constants && i == 100) program.write(sent_constants);
+  }
+  EXPECT_EQ(wrong, 0U);
+  EXPECT_GE(right, guest.read_at_least);
+  if (right == 0) {
+    if (source->statistics().malformed == 0) {
+      EXPECT_THAT(source->statistics().waiting_for, HasSubstr("32-bit program")) << "it says why";
+    }
+    EXPECT_NE(source->statistics().state, SourceState::receiving);
+  }
+}
+
+std::vector<Guest> guests() {
+  std::vector<Guest> all;
+  const auto studio_to_camera_y_up = wire::studio_to_camera | wire::camera_y_up | wire::studio_y_up;
+  for (const std::uint32_t format :
+       {std::uint32_t{0}, std::uint32_t{wire::euler}, wire::euler | wire::field_of_view | wire::vertical,
+        std::uint32_t{wire::studio_y_up}, wire::camera_y_up | wire::studio_y_up,
+        std::uint32_t{studio_to_camera_y_up}}) {
+    for (const bool has_constants : {true, false}) {
+      // Without constants a matrix with options reads as one of a camera with a number, and is not handed out.
+      const bool is_uncertain = !has_constants && format != 0 && !wire::has(format, wire::euler);
+      const std::uint64_t all_sets = has_constants ? 201 : 199;
+      all.push_back({544, 528, format, 0, has_constants, is_uncertain ? 0 : all_sets});
+      all.push_back({524, 508, format, 0, has_constants, all_sets});
+      all.push_back({544, 544, format, 0, has_constants, all_sets});
+      for (const std::uint32_t id : {3U, 4U, 4'000'000'000U}) {
+        const bool is_even = !has_constants && format == 0 && id == 4;
+        all.push_back({544, 544, format, id, has_constants, is_even ? 0 : all_sets});
+        all.push_back({524, 524, format, id, has_constants, all_sets});
+      }
+      // 32-bit programs look for the counters elsewhere: nothing of theirs can be read.
+      for (const std::size_t host : {std::size_t{544}, std::size_t{528}}) {
+        all.push_back({host, 524, format, 3, has_constants, 0});
+        all.push_back({host, 508, format, 0, has_constants, 0});
+      }
+    }
+  }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Guests, ::testing::ValuesIn(guests()));
+
+TEST_F(Field, a_slot_does_not_get_the_segment_of_another_whose_file_was_deleted) {
+  test::FreeSlot other;
+  const std::string other_url = "shm:" + std::to_string(other.number());
+  const auto sink = open_sink(other_url);
+  const auto source = open_source(other_url);
+  const int id = other.segment();
+  struct stat before {
+  }, probe{};
+  ASSERT_EQ(::stat(other.path().c_str(), &before), 0);
+  ::unlink(other.path().c_str());
+  slot.make_file();
+  ASSERT_EQ(::stat(slot.path().c_str(), &probe), 0);
+  ::unlink(slot.path().c_str());
+  if (probe.st_ino != before.st_ino) GTEST_SKIP() << "this file system does not use an inode again at once";
+  const auto stranger = open_sink(url());
+  EXPECT_NE(slot.segment(), id);
+  ASSERT_TRUE(stranger->write(params(1)));
+  receive_for(*source, 50ms);
+  EXPECT_EQ(source->statistics().records, 0U) << "a record came";
+}
+
+}  // namespace
+}  // namespace trk_bridge::shm

@@ -1,0 +1,178 @@
+// Slots that are in nobody's order: whatever is done to them, ours look once, go on, and can be stopped.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <functional>
+#include <random>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "deadline.h"
+#include "free_slot.h"
+#include "shm/segment.h"
+#include "trk_bridge/endpoints/endpoints.h"
+#include "trk_bridge/transport/sink.h"
+#include "trk_bridge/transport/source.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::shm {
+namespace {
+
+using namespace std::chrono_literals;
+using endpoints::open_sink;
+using endpoints::open_source;
+using ::testing::HasSubstr;
+using transport::Event;
+using transport::Reception;
+using transport::Source;
+using transport::SourceState;
+using Clock = std::chrono::steady_clock;
+
+wire::CameraParams params(std::uint64_t counter) {
+  wire::CameraParams p;
+  p.format = wire::euler;
+  p.euler = {1, 2, 3, 4, 5, 6};
+  p.fov = 42;
+  p.counter = counter;
+  return p;
+}
+
+/// The least of several times that `work` takes: what it takes by itself, on a busy machine as well.
+Clock::duration least_time_of(const std::function<void()>& work) {
+  auto least = Clock::duration::max();
+  for (int i = 0; i < 10; ++i) {
+    const auto begin = Clock::now();
+    work();
+    least = std::min(least, Clock::now() - begin);
+  }
+  return least;
+}
+
+/// Does something to the slot again and again, in a thread, until it is destroyed.
+class Attack {
+ public:
+  explicit Attack(std::function<void()> blow)
+      : thread_([this, blow = std::move(blow)] {
+          while (!ended_) {
+            blow();
+            ++blows_;
+          }
+        }) {}
+  ~Attack() {
+    ended_ = true;
+    thread_.join();
+  }
+  Attack(const Attack&) = delete;
+  Attack& operator=(const Attack&) = delete;
+
+  void wait_for(std::uint64_t blows) const {
+    while (blows_ < blows) std::this_thread::yield();
+  }
+
+ private:
+  std::atomic<bool> ended_{false};
+  std::atomic<std::uint64_t> blows_{0};
+  std::thread thread_;
+};
+
+class Hostile : public ::testing::Test {
+ protected:
+  const std::string& url() const { return url_; }
+
+  /// Whatever is there, a source that waits without end is stopped at once.
+  void expect_stoppable(Source& source) {
+    std::thread receiver([&source] {
+      Reception received;
+      while (source.receive(received, -1ns) != Event::stopped) {
+      }
+    });
+    std::this_thread::sleep_for(50ms);
+    const auto begin = Clock::now();
+    source.stop();
+    receiver.join();
+    EXPECT_LT(Clock::now() - begin, 1s);
+  }
+
+  test::FreeSlot slot;
+  const std::string url_ = "shm:" + std::to_string(slot.number());
+  Reception into;
+};
+
+// Far more than a look takes, and far less than the 200 ms that a writer may take to make a segment.
+constexpr auto no_waiting = 50ms;
+
+TEST_F(Hostile, a_segment_that_nobody_finishes_holds_no_writer) {
+  slot.make_segment(544);
+  const auto sink = open_sink(url());
+  EXPECT_LT(least_time_of([&] { EXPECT_FALSE(sink->write(params(1))); }), no_waiting);
+  EXPECT_EQ(sink->write(params(1)).error().reason, transport::SinkReason::gone);
+  slot.remove();
+  EXPECT_TRUE(sink->write(params(2))) << "every write looks again";
+}
+
+TEST_F(Hostile, a_slot_that_changes_its_kind_all_the_time_holds_nobody) {
+  const auto sink = open_sink(url());
+  const auto source = open_source(url());
+  std::mt19937 random(1);
+  const Attack attack([&] {
+    slot.remove();
+    try {
+      const std::size_t sizes[] = {300, 508, 524, 528, 544, 8192};
+      const int id = slot.make_segment(sizes[random() % 6], random() % 4 == 0 ? 0 : 0666);
+      auto* memory = static_cast<char*>(::shmat(id, nullptr, 0));
+      if (memory == reinterpret_cast<char*>(-1)) return;
+      if (random() % 2 == 0) {
+        const std::uint64_t magic = segment_magic;
+        std::memcpy(memory, &magic, sizeof magic);
+      }
+      for (int i = 12; i < 300; ++i) memory[i] = static_cast<char>(random());
+      std::this_thread::sleep_for(1ms);
+      ::shmdt(memory);
+    } catch (const std::runtime_error&) {  // ours was faster
+    }
+  });
+  attack.wait_for(20);
+  EXPECT_LT(least_time_of([&] { static_cast<void>(sink->write(params(1))); }), no_waiting);
+  EXPECT_LT(least_time_of([&] { static_cast<void>(source->receive(into, 0s)); }), no_waiting);
+  expect_stoppable(*source);
+}
+
+TEST_F(Hostile, a_segment_that_changes_faster_than_it_can_be_copied_is_reported_and_not_looked_at_all_the_time) {
+  const auto writer = Segment::attach_or_create(slot.number(), *layout_of_size(544), 0666);
+  ASSERT_TRUE(writer);
+  const auto source = open_source(url());
+  auto* memory = static_cast<char*>(::shmat(writer->id(), nullptr, 0));
+  {
+    const Attack attack(
+        [&] { __atomic_fetch_add(reinterpret_cast<std::uint16_t*>(memory + 12), 1, __ATOMIC_RELAXED); });
+    attack.wait_for(1000);
+    const auto begin = Clock::now();
+    std::uint64_t events = 0;
+    while (Clock::now() - begin < 300ms) {
+      const Event event = source->receive(into, 10ms);
+      ASSERT_NE(event, Event::sample);
+      if (event == Event::malformed) ++events;
+    }
+    const auto looks = static_cast<std::uint64_t>((Clock::now() - begin) / 250us);
+    EXPECT_GT(events, 0U);
+    EXPECT_LE(events, looks + 1) << "one look in 250 us";
+    EXPECT_EQ(source->statistics().state, SourceState::nothing_valid);
+    expect_stoppable(*source);
+  }
+  ::shmdt(memory);
+}
+
+TEST_F(Hostile, a_segment_without_permission_is_named) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may do everything";
+  slot.make_segment(544, 0);
+  const auto source = open_source(url());
+  EXPECT_EQ(source->receive(into, 0s), Event::idle);
+  EXPECT_THAT(source->statistics().waiting_for, HasSubstr("Permission denied"));
+}
+
+}  // namespace
+}  // namespace trk_bridge::shm
