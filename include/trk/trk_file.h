@@ -12,7 +12,7 @@ extern "C" {
 enum { trkTimeCodeSize = 16 };
 
 /* Opens a file and gives its time code (a buffer of trkTimeCodeSize) and constants. trkFailed when it cannot be read,
- * trkInvalidVersion when it, or any line of it, is not sound. */
+ * trkInvalidVersion when its beginning is not sound. Lines are read as they are asked for. */
 TRK_PUBLIC trkError trkFileOpenRead(const char* fileName, char* timeCode, trkCameraConstants* constants,
                                     trkHandle* handle);
 
@@ -29,7 +29,8 @@ TRK_PUBLIC trkError trkFileOpenWrite(const char* fileName, const char* timeCode,
 /* trkFailed when what was written could not be brought to its place. Also done at exit. */
 TRK_PUBLIC trkError trkFileClose(trkHandle handle);
 
-/* The next set; trkUnavailable after the last. */
+/* The next set; trkUnavailable after the last, also where the file was cut in the line behind it. trkInvalidVersion
+ * once for a line that is not sound: the next call goes on behind it. */
 TRK_PUBLIC trkError trkFileReadParams(trkHandle handle, trkCameraParams* params);
 
 #ifndef ONLY_READ

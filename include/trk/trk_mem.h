@@ -20,8 +20,10 @@ enum {
 TRK_PUBLIC trkError trkMemConfigure(unsigned flags);
 
 /* Makes the shared memory of a slot (0 to 61) or attaches to it. trkInvalidVersion when the memory there is not trk's:
- * it is left as it is. New memory has this interface's generation of records; memory of the other generation and of
- * 32-bit programs is read and written in its own layout. */
+ * it is left as it is. New memory has the identified records of 64-bit programs, which every program in use can attach
+ * to; TRK_LAYOUT in the environment says otherwise: document or identified, with _lp64 or _i386 behind it. trkFailed
+ * for other words there. Memory that is there is read and written in its own layout. Waits up to 0.2 s for another
+ * program that is making it. */
 TRK_PUBLIC trkError trkMemOpen(int slot, trkHandle* handle);
 
 /* Detaches; the last one to do so, dead processes not counted, removes the memory. */
@@ -31,7 +33,9 @@ TRK_PUBLIC trkError trkMemClose(trkHandle handle);
 TRK_PUBLIC void trkMemCloseAll(void);
 
 /* The newest parameters written since the handle was opened and not read with it yet, at once. Memory that was removed
- * and created again is attached to. trkInvalidVersion once for a set that is not sound. */
+ * and created again is attached to. trkInvalidVersion once for a set that is not sound. A handle that has written
+ * nothing lets go of memory that nobody else has attached to for a second, so that a program of any generation can make
+ * its own. */
 TRK_PUBLIC trkError trkMemReadParams(trkHandle handle, trkCameraParams* params);
 
 /* The constants in the memory if they are new to this handle, those written before it was opened included. */

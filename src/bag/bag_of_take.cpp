@@ -201,6 +201,7 @@ void record(const file::Take& take, const Schedule& schedule, TakeCamera& camera
 void bag_of_take(const std::string& take_path, const std::string& bag_path, const TakeToBagOptions& options,
                  cli::LongRun& run, std::ostream& err) {
   const file::Take take = file::read_take(take_path);
+  for (const auto& line : take.left_out) err << "trk: warning: " << take_path << ": " << describe(line.fault) << '\n';
   try {
     TakeCamera camera(options);
     const Schedule schedule(take.time_code, options);

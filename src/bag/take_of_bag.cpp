@@ -3,7 +3,7 @@
 #include "cli/number_text.h"
 #include "fields.h"
 #include "file/part_file.h"
-#include "file/take.h"
+#include "file/take_writer.h"
 #include "timing.h"
 #include "trk_bridge/transport/source.h"
 

@@ -5,28 +5,18 @@
 #include <memory>
 #include <mutex>
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include "file/take.h"
+#include "file/take_writer.h"
 #include "handles.h"
 #include "records.h"
-#include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::c_api {
 namespace {
 
-struct Playback {
-  file::Take take;
-  std::size_t next = 0;
-};
+/// Lines that are not sound are reported, and do not end it.
+using Playback = std::unique_ptr<file::TakeReader>;
 
 using Recording = std::unique_ptr<file::TakeWriter>;
-
-bool can_be_read(const char* file_name) noexcept {
-  struct stat state {};
-  return ::stat(file_name, &state) == 0 && !S_ISDIR(state.st_mode) && ::access(file_name, R_OK) == 0;
-}
 
 /// What a program leaves open is brought to its place, as buffered files are.
 void close_recordings() {
@@ -48,16 +38,12 @@ using c_api::Recording;
 trkError trkFileOpenRead(const char* fileName, char* timeCode, trkCameraConstants* constants, trkHandle* handle) {
   return guarded([&] {
     if (fileName == nullptr || timeCode == nullptr || constants == nullptr || handle == nullptr) return trkFailed;
-    if (!c_api::can_be_read(fileName)) return trkFailed;
-    Playback playback;
-    try {
-      playback.take = file::read_take(fileName);
-    } catch (const transport::TransportError&) {
-      return trkInvalidVersion;
-    }
-    const std::string code = base::to_string(playback.take.time_code);
+    // Throws when it cannot be read.
+    auto playback = std::make_unique<file::TakeReader>(fileName, file::Unsound::is_left_out, file::Waiting::blocks);
+    if (playback->next() != file::TakeReader::Got::head) return trkInvalidVersion;
+    const std::string code = base::to_string(playback->time_code());
     if (code.size() >= trkTimeCodeSize) return trkInvalidVersion;
-    const trkCameraConstants read = c_api::to_c(playback.take.constants);
+    const trkCameraConstants read = c_api::to_c(playback->constants());
     *handle = handles<Playback>().open(std::move(playback));
     std::memcpy(timeCode, code.c_str(), code.size() + 1);
     *constants = read;
@@ -94,9 +80,18 @@ trkError trkFileReadParams(trkHandle handle, trkCameraParams* params) {
   return guarded([&] {
     return handles<Playback>().with(handle, [&](Playback& playback) {
       if (params == nullptr) return trkFailed;
-      if (playback.next == playback.take.params.size()) return trkUnavailable;
-      *params = c_api::to_c(playback.take.params[playback.next++]);
-      return trkOK;
+      using Got = file::TakeReader::Got;
+      switch (playback->next()) {
+        case Got::params:
+          *params = c_api::to_c(playback->params());
+          return trkOK;
+        case Got::left_out:
+          return trkInvalidVersion;
+        case Got::failed:
+          return trkFailed;
+        default:
+          return trkUnavailable;
+      }
     });
   });
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/time_text.h"
-#include "take.h"
+#include "take_writer.h"
 
 namespace trk_bridge::file {
 namespace {
@@ -17,7 +17,7 @@ using transport::Option;
 using transport::real_number;
 using transport::Written;
 
-constexpr std::array<Option<SourceSettings>, 5> source_options{{
+constexpr std::array<Option<SourceSettings>, 6> source_options{{
     {"rate", "fields a second from 0.001 to 100000",
      [](const std::string& v, SourceSettings& s) { return assign(real_number(v, 1e-3, 1e5), s.rate); }},
     {"speed", "0 (as fast as possible) and a factor from 0.001 to 1000",
@@ -36,6 +36,8 @@ constexpr std::array<Option<SourceSettings>, 5> source_options{{
        s.date = base::day_from_text(v);
        return s.date && *s.date <= latest_date;
      }},
+    {"lenient", transport::switch_allowed,
+     [](const std::string& v, SourceSettings& s) { return assign_switch(v, s.lenient); }},
 }};
 
 constexpr std::array<Option<SinkSettings>, 2> sink_options{{

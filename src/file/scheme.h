@@ -22,7 +22,7 @@ enum class FileTime : std::uint8_t {
 /// Midnight of 2249-12-31, seconds since 1970: nanoseconds since 1970 end in 2262, and a take goes on for a while.
 inline constexpr std::int64_t latest_date = 8'835'868'800;
 
-/// `file:PATH?rate=…&speed=…&loop=1&time=…&date=…`, to play a take.
+/// `file:PATH?rate=…&speed=…&loop=1&time=…&date=…&lenient=1`, to play a take.
 struct SourceSettings {
   std::string path;
   std::optional<double> rate;  ///< Hz, 0.001 to 100000: video fields a second
@@ -30,7 +30,8 @@ struct SourceSettings {
   bool loop = false;
   FileTime time = FileTime::timecode;
   std::optional<std::int64_t>
-      date;  ///< midnight UTC, seconds since 1970, at most latest_date; default the day of opening
+      date;              ///< midnight UTC, seconds since 1970, at most latest_date; default the day of opening
+  bool lenient = false;  ///< lines that are not sound are left out
 };
 
 /// `file:PATH?timecode=…&overwrite=1`, to record a take.
@@ -44,7 +45,8 @@ struct SinkSettings {
 tl::expected<SourceSettings, std::string> source_settings(const transport::Url&);
 tl::expected<SinkSettings, std::string> sink_settings(const transport::Url&);
 
-/// Throw TransportError. `field_rate` (Hz) counts where the settings have no `rate`.
+/// Throw TransportError. A FIFO is opened at once, its lines are read as they come. `field_rate` (Hz) counts where the
+/// settings have no `rate`.
 std::unique_ptr<transport::Source> open_source(const SourceSettings&, double field_rate);
 std::unique_ptr<transport::Sink> open_sink(const SinkSettings&);
 

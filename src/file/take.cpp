@@ -1,22 +1,23 @@
 #include "take.h"
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
-#include <optional>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
 #include <fcntl.h>
-#include <sys/uio.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include "transport/socket.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::file {
 namespace {
 
 constexpr std::string_view white_space = " \t\r\v\f";
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(white_space);
@@ -24,170 +25,236 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
 }
 
-std::string read_all(const std::string& path) {
-  const auto fail = [&path](int error) {
-    throw transport::TransportError(path + ": cannot be read: " + std::system_category().message(error));
-  };
-  const transport::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) fail(errno);
-  std::string text;
-  std::vector<char> chunk(1 << 16);
-  for (;;) {
-    const ssize_t got = ::read(file.get(), chunk.data(), chunk.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(errno);
-    if (got == 0) return text;
-    text.append(chunk.data(), static_cast<std::size_t>(got));
+// Codes of faults that text has beside those of wire::Reason.
+constexpr std::uint8_t has_nul = 200, is_too_long = 201, is_out_of_order = 202;
+
+std::string reason_text(std::uint8_t code, std::int16_t field) {
+  switch (code) {
+    case has_nul:
+      return "a NUL byte in a line of text";
+    case is_too_long:
+      return "a line of " + std::to_string(wire::max_datagram) + " bytes or more: lines are shorter than " +
+             std::to_string(wire::max_datagram);
+    case is_out_of_order:
+      return "its counter is below the one before";
+    default:
+      wire::Fault fault{static_cast<wire::Reason>(code)};
+      fault.about_field = field >= 0;
+      if (fault.about_field) fault.field = static_cast<std::uint8_t>(field);
+      return wire::describe(fault);
   }
 }
 
-/// The lines that count, with their numbers.
-class Lines {
- public:
-  Lines(const std::string& path, std::string_view text) : path_(path), rest_(text) {}
-
-  /// The next line that is neither blank nor a comment, without the white space around it.
-  std::optional<std::string_view> next() {
-    while (!rest_.empty()) {
-      ++number_;
-      const std::size_t end = rest_.find('\n');
-      const std::string_view line = rest_.substr(0, end);
-      rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-      if (line.size() >= wire::max_datagram) {
-        fail("a line of " + std::to_string(line.size()) + " bytes: lines are shorter than " +
-             std::to_string(wire::max_datagram));
-      }
-      const std::string_view content = trimmed(line);
-      if (content.empty() || content.front() == '#') continue;
-      if (content.find('\0') != std::string_view::npos) fail("a NUL byte in a line of text");
-      return content;
-    }
-    return std::nullopt;
-  }
-
-  std::string_view require(const char* what) {
-    if (const auto line = next()) return *line;
-    ++number_;
-    fail(std::string("the file ends where ") + what + " should stand");
-  }
-
-  [[noreturn]] void fail(const std::string& reason) const {
-    throw transport::TransportError(path_ + ":" + std::to_string(number_) + ": " + reason);
-  }
-
- private:
-  const std::string& path_;
-  std::string_view rest_;
-  std::size_t number_ = 0;
-};
-
-tl::unexpected<transport::SinkFault> system_fault(int error) {
-  transport::SinkFault fault{transport::SinkReason::system};
-  fault.error_number = error;
-  return tl::unexpected(fault);
+std::string describe_unsound(const transport::Fault& fault) {
+  return "line " + std::to_string(fault.line()) + ": " + reason_text(fault.code(), fault.field());
 }
 
-tl::unexpected<transport::SinkFault> encode_fault(const wire::Fault& fault) {
-  return tl::unexpected(transport::SinkFault{transport::SinkReason::not_encodable, fault});
+std::string describe_cut(const transport::Fault& fault) {
+  return "line " + std::to_string(fault.line()) + " is cut: " + reason_text(fault.code(), fault.field()) +
+         "; all lines before it are used";
+}
+
+std::string refusal(const std::string& path, const std::string& reason) { return path + ": cannot be read: " + reason; }
+
+std::string system_text(int error) { return std::system_category().message(error); }
+
+/// Empty when it can be read.
+std::string refusal_of_kind(mode_t mode) {
+  if (S_ISREG(mode) || S_ISFIFO(mode)) return {};
+  if (S_ISDIR(mode)) return system_text(EISDIR);
+  const char* const kind = S_ISCHR(mode) || S_ISBLK(mode) ? "a device" : S_ISSOCK(mode) ? "a socket" : "something else";
+  return std::string("it is ") + kind + "; allowed are regular files and FIFOs";
 }
 
 }  // namespace
 
-Take read_take(const std::string& path) {
-  const std::string text = read_all(path);
-  Lines lines(path, text);
+TakeReader::TakeReader(std::string path, Unsound unsound, Waiting waiting)
+    : path_(std::move(path)), unsound_(unsound), waiting_(waiting), file_(-1) {
+  const auto refuse = [this](const std::string& reason) { throw transport::TransportError(refusal(path_, reason)); };
+  // Before it is opened: that alone does something to devices.
+  struct stat state {};
+  if (::stat(path_.c_str(), &state) != 0) refuse(system_text(errno));
+  if (const std::string reason = refusal_of_kind(state.st_mode); !reason.empty()) refuse(reason);
+  const int flags = waiting == Waiting::never ? O_RDONLY | O_CLOEXEC | O_NONBLOCK : O_RDONLY | O_CLOEXEC;
+  file_ = transport::Descriptor(::open(path_.c_str(), flags | O_NOCTTY));
+  if (file_.get() < 0 || ::fstat(file_.get(), &state) != 0) refuse(system_text(errno));
+  if (const std::string reason = refusal_of_kind(state.st_mode); !reason.empty()) refuse(reason);
+  is_fifo_ = S_ISFIFO(state.st_mode);
+}
+
+TakeReader::Line TakeReader::fill() {
+  if (begin_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  for (;;) {
+    if (is_fifo_ && waiting_ == Waiting::never) {
+      // Without a writer yet a read would say that this is the end.
+      pollfd more{file_.get(), POLLIN, 0};
+      if (::poll(&more, 1, 0) == 0) return Line::nothing_yet;
+    }
+    const ssize_t got = ::read(file_.get(), buffer_.data() + end_, buffer_.size() - end_);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && errno == EAGAIN) return Line::nothing_yet;
+    if (got < 0) return Line::failed;
+    if (got == 0) at_end_ = true;
+    end_ += static_cast<std::size_t>(got);
+    return Line::whole;
+  }
+}
+
+TakeReader::Line TakeReader::next_line(std::string_view& line) {
+  for (;;) {
+    const std::string_view read(buffer_.data() + begin_, end_ - begin_);
+    const std::size_t length = read.find('\n');
+    if (length != std::string_view::npos) {
+      begin_ += length + 1;
+      if (std::exchange(skips_, false)) continue;
+      ++number_;
+      line = read.substr(0, length);
+      return Line::whole;
+    }
+    if (skips_) begin_ = end_;
+    if (!skips_ && read.size() == buffer_.size()) {
+      ++number_;
+      skips_ = true;
+      return Line::too_long;
+    }
+    if (at_end_) {
+      if (begin_ == end_) return Line::end;
+      begin_ = end_;
+      ++number_;
+      line = read;
+      return Line::last;
+    }
+    if (const Line filled = fill(); filled != Line::whole) return filled;
+  }
+}
+
+TakeReader::Got TakeReader::next() {
+  if (stage_ == Stage::failed) return Got::failed;
+  for (;;) {
+    if (stage_ == Stage::ended) return Got::end;
+    std::string_view line;
+    const Line got = next_line(line);
+    switch (got) {
+      case Line::nothing_yet:
+        return Got::nothing_yet;
+      case Line::failed:
+        error_ = refusal(path_, system_text(errno));
+        stage_ = Stage::failed;
+        return Got::failed;
+      case Line::end:
+        return finish();
+      case Line::too_long:
+        return unsound(is_too_long, -1);
+      case Line::whole:
+      case Line::last:
+        break;
+    }
+    if (number_ == 1 && line.substr(0, byte_order_mark.size()) == byte_order_mark) {
+      line.remove_prefix(byte_order_mark.size());
+    }
+    const std::string_view content = trimmed(line);
+    if (content.empty() || content.front() == '#') continue;
+    if (stage_ == Stage::params) return take_params(content, got == Line::last);
+    if (const Got head = take_head(content); head != Got::nothing_yet) return head;
+  }
+}
+
+/// nothing_yet: the head goes on in the next line.
+TakeReader::Got TakeReader::take_head(std::string_view content) {
+  if (content.find('\0') != std::string_view::npos) return fail(reason_text(has_nul, -1));
+  if (stage_ == Stage::magic) {
+    if (content != "DMC01") return fail("not a take: it does not begin with a line DMC01");
+    stage_ = Stage::time_code;
+    return Got::nothing_yet;
+  }
+  if (stage_ == Stage::time_code) {
+    const auto code = base::parse_time_code(content);
+    if (!code) return fail(code.error());
+    time_code_ = *code;
+    stage_ = Stage::constants;
+    return Got::nothing_yet;
+  }
+  const auto constants = wire::constants_from_text(content);
+  if (!constants) return fail("constants: " + wire::describe(constants.error()));
+  constants_ = *constants;
+  stage_ = Stage::params;
+  return Got::head;
+}
+
+TakeReader::Got TakeReader::take_params(std::string_view content, bool is_last) {
+  const auto give_up = [&](std::uint8_t code, std::int16_t field) {
+    if (!is_last) return unsound(code, field);
+    fault_ = {"cut line", describe_cut, code, field, number_};
+    return Got::cut;
+  };
+  if (content.find('\0') != std::string_view::npos) return give_up(has_nul, -1);
+  const auto params = wire::params_from_text(content);
+  if (!params) {
+    const transport::Fault fault = params.error();
+    return give_up(fault.code(), fault.field());
+  }
+  if (is_last && has_params_ && params->counter < params_.counter) return give_up(is_out_of_order, -1);
+  params_ = *params;
+  has_params_ = true;
+  return Got::params;
+}
+
+TakeReader::Got TakeReader::unsound(std::uint8_t code, std::int16_t field) {
+  if (stage_ != Stage::params || unsound_ == Unsound::is_error) return fail(reason_text(code, field));
+  fault_ = {"unsound line", describe_unsound, code, field, number_};
+  return Got::left_out;
+}
+
+TakeReader::Got TakeReader::fail(const std::string& reason) {
+  error_ = path_ + ":" + std::to_string(number_) + ": " + reason;
+  stage_ = Stage::failed;
+  return Got::failed;
+}
+
+TakeReader::Got TakeReader::finish() {
+  const char* const missing = stage_ == Stage::magic       ? "DMC01"
+                              : stage_ == Stage::time_code ? "the time code of the first field"
+                              : stage_ == Stage::constants ? "the camera's constants"
+                                                           : nullptr;
+  if (missing != nullptr) {
+    ++number_;
+    return fail(std::string("the file ends where ") + missing + " should stand");
+  }
+  stage_ = Stage::ended;
+  return Got::end;
+}
+
+Take read_take(TakeReader& reader) {
   Take take;
-
-  if (lines.require("DMC01") != "DMC01") lines.fail("not a take: it does not begin with a line DMC01");
-
-  auto code = base::parse_time_code(lines.require("the time code of the first field"));
-  if (!code) lines.fail(code.error());
-  take.time_code = *code;
-
-  const auto constants = wire::constants_from_text(lines.require("the camera's constants"));
-  if (!constants) lines.fail("constants: " + wire::describe(constants.error()));
-  take.constants = *constants;
-
-  while (const auto line = lines.next()) {
-    const auto params = wire::params_from_text(*line);
-    if (!params) lines.fail(wire::describe(params.error()));
-    take.params.push_back(*params);
-  }
-  return take;
-}
-
-TakeWriter::TakeWriter(std::string path, const base::TimeCode& time_code, bool overwrite)
-    : file_(std::move(path), overwrite) {
-  const auto written =
-      append("DMC01\n# time code of the first field\n" + to_string(time_code) + "\n# constants of the camera");
-  if (!written) {
-    file_.discard();
-    throw transport::TransportError(
-        file_.part() + ": cannot be written: " + std::system_category().message(written.error().error_number));
+  for (;;) {
+    switch (reader.next()) {
+      case TakeReader::Got::head:
+        take.time_code = reader.time_code();
+        take.constants = reader.constants();
+        break;
+      case TakeReader::Got::params:
+        take.params.push_back(reader.params());
+        break;
+      case TakeReader::Got::left_out:
+      case TakeReader::Got::cut:
+        take.left_out.push_back({take.params.size(), reader.fault()});
+        break;
+      case TakeReader::Got::end:
+        return take;
+      case TakeReader::Got::nothing_yet:
+      case TakeReader::Got::failed:
+        throw transport::TransportError(reader.error());
+    }
   }
 }
 
-TakeWriter::~TakeWriter() { static_cast<void>(close()); }
-
-tl::expected<void, transport::SinkFault> TakeWriter::write(const wire::CameraConstants& constants) {
-  if (!file_.is_open()) return tl::unexpected(transport::SinkFault{transport::SinkReason::closed});
-  if (constants_) {
-    if (constants.id != constants_->id)
-      return tl::unexpected(transport::SinkFault{transport::SinkReason::other_camera});
-    constants_hold_ = *constants_ == constants;
-    if (!constants_hold_) return tl::unexpected(transport::SinkFault{transport::SinkReason::constants_changed});
-    return {};
-  }
-  const auto text = wire::to_text(constants, buffer_);
-  if (!text) return encode_fault(text.error());
-  if (auto written = append(*text); !written) return written;
-  constants_ = constants;
-  constants_hold_ = true;
-  return {};
-}
-
-tl::expected<void, transport::SinkFault> TakeWriter::write(const wire::CameraParams& params) {
-  if (!file_.is_open()) return tl::unexpected(transport::SinkFault{transport::SinkReason::closed});
-  if (!constants_) return tl::unexpected(transport::SinkFault{transport::SinkReason::no_constants});
-  const std::uint32_t any = constants_->id == 0 ? params.id : constants_->id;
-  if (params.id != camera_.value_or(any))
-    return tl::unexpected(transport::SinkFault{transport::SinkReason::other_camera});
-  if (!constants_hold_) return tl::unexpected(transport::SinkFault{transport::SinkReason::constants_changed});
-  const auto text = wire::to_text(params, buffer_);
-  if (!text) return encode_fault(text.error());
-  auto written = append(*text);
-  if (written) camera_ = params.id;
-  return written;
-}
-
-tl::expected<void, transport::SinkFault> TakeWriter::append(std::string_view line) {
-  std::array<iovec, 2> pieces{};
-  std::size_t done = 0;
-  const std::size_t length = line.size() + 1;
-  char newline = '\n';
-  while (done < length) {
-    const std::size_t of_line = done < line.size() ? line.size() - done : 0;
-    pieces[0] = {const_cast<char*>(line.data()) + (line.size() - of_line), of_line};
-    pieces[1] = {&newline, 1};
-    const ssize_t written = ::pwritev(file_.fd(), pieces.data(), static_cast<int>(pieces.size()),
-                                      static_cast<off_t>(size_ + static_cast<std::int64_t>(done)));
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return system_fault(written < 0 ? errno : EIO);
-    done += static_cast<std::size_t>(written);
-  }
-  size_ += static_cast<std::int64_t>(length);
-  return {};
-}
-
-tl::expected<void, transport::SinkFault> TakeWriter::close() {
-  if (!file_.is_open()) return {};
-  if (!constants_) {
-    file_.discard();
-    return tl::unexpected(transport::SinkFault{transport::SinkReason::no_constants});
-  }
-  // A write that failed half-way has left its beginning behind the last whole line.
-  if (const auto published = file_.publish(size_); !published) return system_fault(published.error());
-  return {};
+Take read_take(const std::string& path, Unsound unsound) {
+  TakeReader reader(path, unsound, Waiting::blocks);
+  return read_take(reader);
 }
 
 }  // namespace trk_bridge::file

@@ -1,68 +1,112 @@
 // A take: the text file of one camera's parameters, one set a video field (doc/wire_formats.md, "File").
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <tl/expected.hpp>
-
-#include "part_file.h"
+#include "transport/socket.h"
 #include "trk_bridge/base/time_code.h"
-#include "trk_bridge/transport/sink.h"
+#include "trk_bridge/transport/sample.h"
 #include "trk_bridge/wire/codec.h"
 
 namespace trk_bridge::file {
 
+/// What to do with a line of parameters that is not sound.
+enum class Unsound : std::uint8_t { is_error, is_left_out };
+
+/// Whether a reader of a FIFO waits for its writer.
+enum class Waiting : std::uint8_t { blocks, never };
+
+/// Reads a take line by line as it is asked for, in memory of a fixed size: no line is read further than 4096 bytes.
+/// Lines may end in LF or CRLF, and a byte order mark of UTF-8 may stand in front. One thread at a time.
+///
+/// A last line without its end is *cut* when it is not sound, or when its counter, of which digits may be missing, is
+/// below the one before: what a recorder leaves that died while writing. It is left out, and no error.
+class TakeReader {
+ public:
+  /// What next() met.
+  enum class Got : std::uint8_t {
+    head,         ///< time_code() and constants() are known, and only now
+    params,       ///< params(): one video field
+    left_out,     ///< a line that is not sound: fault(); only with Unsound::is_left_out
+    cut,          ///< the last line is: fault(); the end follows
+    end,          ///< and nothing else from then on
+    nothing_yet,  ///< of a FIFO, only with Waiting::never: fd() is readable when there is more
+    failed,       ///< it cannot be read on: error()
+  };
+
+  /// Throws transport::TransportError: `PATH: cannot be read: why`; also for what is neither a regular file nor a FIFO.
+  /// With Waiting::blocks it waits for a FIFO's writer.
+  TakeReader(std::string path, Unsound unsound, Waiting waiting);
+
+  [[nodiscard]] Got next();
+
+  const base::TimeCode& time_code() const noexcept { return time_code_; }
+  const wire::CameraConstants& constants() const noexcept { return constants_; }
+  const wire::CameraParams& params() const noexcept { return params_; }
+  /// Names the line; describe(): "line 57: field 9 is not a number", "line 57 is cut: field 9 is missing".
+  const transport::Fault& fault() const noexcept { return fault_; }
+  /// One line for a person: `PATH:LINE: what is wrong`, or `PATH: cannot be read: why`.
+  const std::string& error() const noexcept { return error_; }
+
+  const std::string& path() const noexcept { return path_; }
+  int fd() const noexcept { return file_.get(); }
+  bool is_fifo() const noexcept { return is_fifo_; }
+
+ private:
+  enum class Stage : std::uint8_t { magic, time_code, constants, params, ended, failed };
+  enum class Line : std::uint8_t { whole, last, too_long, end, nothing_yet, failed };
+
+  Line next_line(std::string_view& line);
+  Line fill();
+  Got take_head(std::string_view content);
+  Got take_params(std::string_view content, bool is_last);
+  Got unsound(std::uint8_t code, std::int16_t field);
+  Got fail(const std::string& reason);
+  Got finish();
+
+  const std::string path_;
+  const Unsound unsound_;
+  const Waiting waiting_;
+  transport::Descriptor file_;
+  bool is_fifo_ = false;
+  std::array<char, wire::max_datagram> buffer_{};
+  std::size_t begin_ = 0, end_ = 0;  // of what is read and not handed out
+  bool at_end_ = false;              // of the file
+  bool skips_ = false;               // the rest of a line that is too long
+  std::uint32_t number_ = 0;         // of the line
+  Stage stage_ = Stage::magic;
+
+  base::TimeCode time_code_;
+  wire::CameraConstants constants_;
+  wire::CameraParams params_;
+  bool has_params_ = false;
+  transport::Fault fault_;
+  std::string error_;
+};
+
 /// A whole take in memory.
 struct Take {
+  /// A line that is not there.
+  struct LeftOut {
+    std::size_t position;  ///< in `params`, of the line behind it
+    transport::Fault fault;
+  };
+
   base::TimeCode time_code;
   wire::CameraConstants constants;
   std::vector<wire::CameraParams> params;  ///< may be empty: a recording that ended before its first field
+  std::vector<LeftOut> left_out;           ///< lines: a last one that is cut, and with Unsound::is_left_out others
 };
 
-/// Reads a whole take; lines may end in LF or CRLF. Throws transport::TransportError: `PATH:LINE: what is wrong`, or
-/// `PATH: why it cannot be read`.
-Take read_take(const std::string& path);
-
-/// Writes a take line by line into `PATH.part`, which gets its final name only when it is whole. A writer that dies
-/// leaves nothing under the final name, and every field it wrote in `PATH.part`. One thread at a time; writing does not
-/// allocate.
-class TakeWriter {
- public:
-  /// Throws transport::TransportError, as PartFile does.
-  TakeWriter(std::string path, const base::TimeCode&, bool overwrite);
-  /// As close(), but cannot say how it went.
-  ~TakeWriter();
-  TakeWriter(const TakeWriter&) = delete;
-  TakeWriter& operator=(const TakeWriter&) = delete;
-
-  /// Once, before the first parameters. The same again is no fault and writes nothing. Others of that id are
-  /// constants_changed, as are all parameters until the first ones come again; other ids are other_camera.
-  [[nodiscard]] tl::expected<void, transport::SinkFault> write(const wire::CameraConstants&);
-  /// One video field, of the constants' id; constants with id 0 serve any camera, the first one's id counting from then
-  /// on. no_constants before the constants. A line that could not be written whole is not in the file.
-  [[nodiscard]] tl::expected<void, transport::SinkFault> write(const wire::CameraParams&);
-  /// Brings everything to the disk and gives the file its final name. Without constants there is no take: no_constants,
-  /// and nothing stays. When the system refuses, `PATH.part` stays as it is. Closing again does nothing.
-  [[nodiscard]] tl::expected<void, transport::SinkFault> close();
-
-  /// Ends it without a trace, for a take that turned out to be of no use.
-  void discard() noexcept { file_.discard(); }
-
-  const std::string& path() const noexcept { return file_.path(); }
-
- private:
-  tl::expected<void, transport::SinkFault> append(std::string_view line);
-
-  PartFile file_;
-  std::int64_t size_ = 0;  // of the whole lines; what lies behind is what is left of a failed write
-  std::optional<wire::CameraConstants> constants_;
-  std::optional<std::uint32_t> camera_;  // of the parameters written
-  bool constants_hold_ = false;          // no others have come since
-  wire::Buffer buffer_{};
-};
+/// Reads a whole take. Throws transport::TransportError: `PATH:LINE: what is wrong`, or `PATH: why it cannot be read`.
+Take read_take(const std::string& path, Unsound unsound = Unsound::is_error);
+/// The rest of it.
+Take read_take(TakeReader& reader);
 
 }  // namespace trk_bridge::file

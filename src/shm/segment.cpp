@@ -88,9 +88,11 @@ void copy_words_in(const char* from, std::size_t size, char* to) noexcept {
   }
 }
 
-bool is_all_zero(char* base, std::size_t size) noexcept {
+// A maker may count itself in before it writes the magic.
+bool is_unwritten(char* base, const SegmentLayout& layout) noexcept {
+  const std::size_t size = layout.size - layout.params_counter;
   std::array<char, 1024> bytes{};
-  copy_words_out(base, size, bytes.data());
+  copy_words_out(base + layout.params_counter, size, bytes.data());
   return std::all_of(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size), [](char c) { return c == 0; });
 }
 
@@ -150,7 +152,7 @@ tl::expected<Mapping, SlotFault> map(int slot, int id) noexcept {
 tl::expected<void, SlotFault> check_magic(int slot, char* base, const SegmentLayout& layout) noexcept {
   const std::uint64_t magic = magic_in(base, layout);
   if (magic == segment_magic) return {};
-  const bool unfinished = magic == 0 && is_all_zero(base + layout.magic_size, layout.size - layout.magic_size);
+  const bool unfinished = magic == 0 && is_unwritten(base, layout);
   SlotFault fault = slot_fault(unfinished ? SlotProblem::unfinished : SlotProblem::foreign, slot);
   fault.size = layout.size;
   fault.magic = magic;
@@ -223,6 +225,7 @@ tl::expected<Segment, SlotFault> Segment::attach(int slot) noexcept {
   }
   Segment segment(slot, found->id, mapping->base, *layout, mapping->writable);
   segment.count_in();
+  segment.correct_count();
   // The last one to use it may have removed it between the look and the attachment.
   if (segment.fate(true) != SegmentFate::current) return tl::unexpected(slot_fault(SlotProblem::no_segment, slot));
   return segment;
@@ -262,7 +265,8 @@ tl::expected<Segment, SlotFault> Segment::adopt(int slot) noexcept {
   const auto mapping = map(slot, found->id);
   if (!mapping) return tl::unexpected(mapping.error());
   Segment segment(slot, found->id, mapping->base, *layout, mapping->writable);
-  if (!mapping->writable || !is_all_zero(segment.base_, layout->size) || segment.attachments() != 1) {
+  const bool is_unfinished = magic_in(segment.base_, *layout) == 0 && is_unwritten(segment.base_, *layout);
+  if (!mapping->writable || !is_unfinished || segment.attachments() != 1) {
     ::shmdt(segment.let_go());
     return tl::unexpected(unfinished);
   }
@@ -288,10 +292,14 @@ tl::expected<Segment, SlotFault> Segment::attach_or_create(int slot, const Segme
 
 void Segment::count_in() noexcept {
   if (!writable_) return;
-  auto* const connected = at<std::int32_t>(base_, layout_->connected);
-  __atomic_add_fetch(connected, 1, __ATOMIC_ACQ_REL);
+  __atomic_add_fetch(at<std::int32_t>(base_, layout_->connected), 1, __ATOMIC_ACQ_REL);
   counted_ = true;
-  // Only as it was seen: who counts in or out at this moment counts on from the true number.
+}
+
+// Only where it still is as it was seen: who counts in or out at this moment counts on from the true number.
+void Segment::correct_count() noexcept {
+  if (!writable_) return;
+  auto* const connected = at<std::int32_t>(base_, layout_->connected);
   std::int32_t seen = __atomic_load_n(connected, __ATOMIC_ACQUIRE);
   const auto truth = static_cast<std::int32_t>(attachments());
   if (truth > 0 && seen != truth) {
@@ -299,7 +307,7 @@ void Segment::count_in() noexcept {
   }
 }
 
-// Magic last: with it the segment can be used by others.
+// With the magic the segment can be used by others, who may leave at once and must not be the last ones by `connected`.
 void Segment::finish() noexcept {
   count_in();
   if (layout_->magic_size == 8) {
@@ -307,6 +315,7 @@ void Segment::finish() noexcept {
   } else {
     __atomic_store_n(at<std::uint32_t>(base_, 0), segment_magic, __ATOMIC_RELEASE);
   }
+  correct_count();
 }
 
 char* Segment::let_go() noexcept {

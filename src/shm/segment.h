@@ -54,7 +54,7 @@ enum class SlotProblem : std::uint8_t {
   bad_slot,    ///< not 0..61
   no_file,     ///< nobody has opened the slot
   no_segment,  ///< the file is there, the segment is not
-  unfinished,  ///< a segment that is all zero: being created, or its creator died
+  unfinished,  ///< a segment without magic and records: being created, or its creator died
   deserted,    ///< a reader let go of the segment, and nobody has attached since
   foreign,     ///< a segment under the slot's key that is not trk: `size`, and `magic` where the size was right
   not_a_file,  ///< something else has the slot file's name
@@ -186,6 +186,7 @@ class Segment {
             std::size_t SegmentLayout::*size, RecordImage& into) const noexcept;
   void put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept;
   void count_in() noexcept;
+  void correct_count() noexcept;
   void finish() noexcept;
   char* let_go() noexcept;
 

@@ -36,7 +36,7 @@ std::string describe_problem(const SlotFault& f) {
     case SlotProblem::no_segment:
       return "no segment";
     case SlotProblem::unfinished:
-      return "segment of " + size + " bytes is all zero: its maker has not finished it";
+      return "segment of " + size + " bytes is empty: its maker has not finished it";
     case SlotProblem::deserted:
       return "nobody has attached to its segment";
     case SlotProblem::foreign:

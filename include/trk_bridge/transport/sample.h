@@ -42,8 +42,8 @@ class Fault {
   Fault() noexcept = default;
   /// `name` is a short static text, for counting by reason. `code` and `field` are for `describe`; what they mean is
   /// the protocol's matter.
-  Fault(const char* name, Describe describe, std::uint8_t code, std::int16_t field) noexcept
-      : name_(name), describe_(describe), code_(code), field_(field) {}
+  Fault(const char* name, Describe describe, std::uint8_t code, std::int16_t field, std::uint32_t line = 0) noexcept
+      : name_(name), describe_(describe), code_(code), field_(field), line_(line) {}
   /// A fault of trk.
   Fault(const wire::Fault&) noexcept;  // NOLINT(google-explicit-constructor): it is the same fault
 
@@ -52,6 +52,8 @@ class Fault {
   std::uint8_t code() const noexcept { return code_; }
   /// Which field it is about; negative when it is about none.
   std::int16_t field() const noexcept { return field_; }
+  /// The line of a file, from 1; 0 where there are no lines.
+  std::uint32_t line() const noexcept { return line_; }
 
   friend bool operator==(const Fault& a, const Fault& b) noexcept { return a.key() == b.key(); }
   friend bool operator!=(const Fault& a, const Fault& b) noexcept { return !(a == b); }
@@ -60,14 +62,15 @@ class Fault {
 
  private:
   static std::string no_fault(const Fault&) { return "none"; }
-  std::tuple<std::uintptr_t, std::uint8_t, std::int16_t> key() const noexcept {
-    return {reinterpret_cast<std::uintptr_t>(describe_), code_, field_};
+  std::tuple<std::uintptr_t, std::uint8_t, std::int16_t, std::uint32_t> key() const noexcept {
+    return {reinterpret_cast<std::uintptr_t>(describe_), code_, field_, line_};
   }
 
   const char* name_ = "none";
   Describe describe_ = no_fault;
   std::uint8_t code_ = 0;
   std::int16_t field_ = -1;
+  std::uint32_t line_ = 0;
 };
 
 /// What sources hand out. Copying allocates nothing.

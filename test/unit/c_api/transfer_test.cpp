@@ -3,14 +3,19 @@
 #include <trk/trk_mem.h>
 #include <trk/trk_net.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "deadline.h"
 #include "free_slot.h"
 #include "reserved_port.h"
 #include "temporary_directory.h"
@@ -110,6 +115,50 @@ TEST_F(Memory, recreate_replaces_it_when_all_others_have_left) {
   EXPECT_NE(slot.segment(), before);
   ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
   EXPECT_EQ(trkMemReadConstants(reader, &c), trkOK) << "the contents came along";
+}
+
+std::size_t size_of(const FreeSlot& slot) {
+  shmid_ds state{};
+  return ::shmctl(slot.segment(), IPC_STAT, &state) == 0 ? state.shm_segsz : 0;
+}
+
+TEST_F(Memory, is_made_for_every_program_of_today_unless_the_environment_says_otherwise) {
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  EXPECT_EQ(size_of(slot), 544U);
+  trkMemCloseAll();
+  struct Environment {
+    ~Environment() { ::unsetenv("TRK_LAYOUT"); }
+  } const restored;
+  for (const auto& [word, size] : std::vector<std::pair<const char*, std::size_t>>{
+           {"document", 528}, {"identified_i386", 524}, {"document_i386", 508}, {"auto", 544}}) {
+    ::setenv("TRK_LAYOUT", word, 1);
+    ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK) << word;
+    EXPECT_EQ(size_of(slot), size) << word;
+    trkMemCloseAll();
+  }
+  for (const char* word : {"", "documant", "identified_llp64"}) {
+    ::setenv("TRK_LAYOUT", word, 1);
+    ::testing::internal::CaptureStderr();
+    EXPECT_EQ(trkMemOpen(slot.number(), &writer), trkFailed) << word;
+    EXPECT_NE(::testing::internal::GetCapturedStderr().find(std::string("TRK_LAYOUT=") + word), std::string::npos);
+    EXPECT_FALSE(slot.has_file());
+  }
+}
+
+TEST_F(Memory, a_reader_that_is_alone_lets_go_and_comes_back) {
+  ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
+  const auto end = std::chrono::steady_clock::now() + trk_bridge::test::deadline;
+  while (slot.has_file() && std::chrono::steady_clock::now() < end) {
+    ASSERT_EQ(trkMemReadParams(reader, &p), trkUnavailable);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_FALSE(slot.has_file());
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  ASSERT_EQ(trkMemWriteConstants(writer, &constants), trkOK);
+  trkError error = trkUnavailable;
+  while (error == trkUnavailable && std::chrono::steady_clock::now() < end) error = trkMemReadConstants(reader, &c);
+  EXPECT_EQ(error, trkOK);
+  EXPECT_EQ(std::memcmp(&c, &constants, sizeof c), 0);
 }
 
 TEST_F(Memory, memory_that_is_not_trk_is_of_an_invalid_version) {
@@ -334,9 +383,33 @@ TEST_F(File, what_cannot_be_read_fails_and_what_is_no_take_is_of_an_invalid_vers
   EXPECT_EQ(trkFileOpenRead(name.c_str(), time_code, &c, &handle), trkFailed);
   EXPECT_EQ(trkFileOpenRead(directory.path().c_str(), time_code, &c, &handle), trkFailed);
   std::ofstream(name) << "DMC01\n10:20:30:12:2\n720 576 10 10 0 0 6.4 4.8 6.5 4.9\n1 1 2 3\n";
+  ASSERT_EQ(trkFileOpenRead(name.c_str(), time_code, &c, &handle), trkOK);
+  EXPECT_EQ(trkFileReadParams(handle, &p), trkInvalidVersion);
+  EXPECT_EQ(trkFileReadParams(handle, &p), trkUnavailable);
+  EXPECT_EQ(trkFileClose(handle), trkOK);
+  std::ofstream(name) << "DMC01\n10:20:30:12:3\n720 576 10 10 0 0 6.4 4.8 6.5 4.9\n";
+  handle = nullptr;
+  time_code[0] = '\0';
   EXPECT_EQ(trkFileOpenRead(name.c_str(), time_code, &c, &handle), trkInvalidVersion);
   EXPECT_EQ(handle, nullptr);
   EXPECT_STREQ(time_code, "");
+}
+
+TEST_F(File, lines_are_read_as_they_are_asked_for) {
+  const std::string line = "1 1 2 3 4 5 6 7 0 0 0 0 0 0 ";
+  std::ofstream(name) << "DMC01\n10:20:30:12:2\n720 576 10 10 0 0 6.4 4.8 6.5 4.9\n"
+                      << line << "1\n"
+                      << line << "oops\n"
+                      << line << "3\n"
+                      << line;
+  ASSERT_EQ(trkFileOpenRead(name.c_str(), time_code, &c, &handle), trkOK);
+  EXPECT_EQ(trkFileReadParams(handle, &p), trkOK);
+  EXPECT_EQ(trkFileReadParams(handle, &p), trkInvalidVersion) << "once";
+  EXPECT_EQ(trkFileReadParams(handle, &p), trkOK);
+  EXPECT_EQ(p.counter, 3U);
+  EXPECT_EQ(trkFileReadParams(handle, &p), trkUnavailable) << "the last line is cut";
+  EXPECT_EQ(trkFileReadParams(handle, &p), trkUnavailable);
+  EXPECT_EQ(trkFileClose(handle), trkOK);
 }
 
 TEST_F(File, misuse_gives_the_documents_codes) {

@@ -42,7 +42,9 @@ TEST(FileSettings, FileReadingOptions) {
   EXPECT_EQ(defaults.speed, 1.0);
   EXPECT_FALSE(defaults.loop);
   EXPECT_EQ(defaults.time, FileTime::timecode);
-  const auto e = file_in("file:a?rate=59.94&speed=0&loop=1&time=now&date=2024-02-29");
+  EXPECT_FALSE(defaults.lenient);
+  const auto e = file_in("file:a?rate=59.94&speed=0&loop=1&time=now&date=2024-02-29&lenient=1");
+  EXPECT_TRUE(e.lenient);
   EXPECT_EQ(e.rate, 59.94);
   EXPECT_EQ(e.speed, 0.0);
   EXPECT_TRUE(e.loop);

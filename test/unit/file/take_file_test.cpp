@@ -1,10 +1,16 @@
 #include "file/take.h"
 
+#include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "error_of.h"
 #include "temporary_directory.h"
@@ -110,6 +116,92 @@ TEST_F(ReadTake, ALineOf4096BytesIsTooLongAndOneByteLessIsNot) {
               HasSubstr(path + ":4: a line of 4096 bytes"));
   write_text(path, head + std::string("#") + std::string(4094, 'x') + "\n" + line);
   EXPECT_EQ(read_take(path).params.size(), 1u);
+}
+
+TEST_F(ReadTake, ALastLineThatIsCutIsLeftOutWhereverTheCutIs) {
+  const std::string whole = head + std::string(line) + "1 14.5 -4 15 158 -78 137 53.5 0.1 0.05 -0.001 -7e-06 16.5 8 ";
+  const std::string text = whole + "1001";
+  const std::size_t second = (head + std::string(line)).size();
+  for (std::size_t size = second; size <= text.size(); ++size) {
+    write_text(path, text.substr(0, size));
+    const Take take = read_take(path);
+    const bool is_whole = size == text.size();
+    ASSERT_EQ(take.params.size(), is_whole ? 2U : 1U) << size;
+    EXPECT_EQ(take.params.back().counter, is_whole ? 1001U : 1000U) << size;
+    ASSERT_EQ(take.left_out.size(), is_whole || size == second ? 0U : 1U) << size;
+    if (take.left_out.empty()) continue;
+    EXPECT_THAT(describe(take.left_out[0].fault), StartsWith("line 5 is cut: "));
+    EXPECT_EQ(take.left_out[0].fault.line(), 5U);
+  }
+  write_text(path, text.substr(0, second + 20) + std::string(100, '\0'));
+  EXPECT_EQ(read_take(path).left_out.size(), 1U) << "as after a power failure";
+  write_text(path, text.substr(0, second + 20) + "\n");
+  EXPECT_THAT(error_of(path), StartsWith(path + ":5: ")) << "a line with its end is whole";
+  EXPECT_THAT(error_of_text(std::string(head).substr(0, 40)), StartsWith(path + ":3: ")) << "a head that is cut";
+}
+
+TEST_F(ReadTake, LinesThatAreNotSoundAreLeftOutWhenThatIsWanted) {
+  const std::string good = line, bad = "1 14.5 -4 oops 158\n", with_nul = std::string(good).insert(3, 1, '\0');
+  write_text(path, head + good + bad + good + with_nul + std::string(10'000, 'x') + "\n" + good + "1 2 3");
+  EXPECT_THAT(error_of(path), StartsWith(path + ":5: field 4 is not a number"));
+  const Take take = read_take(path, Unsound::is_left_out);
+  EXPECT_EQ(take.params.size(), 3U);
+  std::vector<std::string> texts;
+  std::vector<std::size_t> positions;
+  for (const auto& [position, fault] : take.left_out) {
+    texts.push_back(describe(fault));
+    positions.push_back(position);
+  }
+  EXPECT_THAT(texts, testing::ElementsAre("line 5: field 4 is not a number", "line 7: a NUL byte in a line of text",
+                                          StartsWith("line 8: a line of 4096 bytes or more"),
+                                          StartsWith("line 10 is cut: field 4 is missing")));
+  EXPECT_THAT(positions, testing::ElementsAre(1, 2, 2, 3));
+}
+
+TEST_F(ReadTake, AByteOrderMarkIsPassedOver) {
+  write_text(path, "\xEF\xBB\xBF" + std::string(head) + line);
+  EXPECT_EQ(read_take(path).params.size(), 1U);
+  EXPECT_THAT(error_of_text(std::string(head) + "\xEF\xBB\xBF" + line), StartsWith(path + ":4: ")) << "in front only";
+}
+
+TEST_F(ReadTake, OfALineWithoutEndNoMoreIsReadThanALineHas) {
+  // 1 GB with holes: a reader that takes it as a whole needs that much memory, which it does not have here.
+  write_text(path, head);
+  ASSERT_EQ(::truncate(path.c_str(), 1 << 30), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const rlimit limit{200'000'000, 200'000'000};
+    ::setrlimit(RLIMIT_AS, &limit);
+    const auto bytes_read = [] {
+      std::ifstream io("/proc/self/io");
+      std::string key;
+      long long value = 0;
+      while (io >> key >> value) {
+        if (key == "rchar:") return value;
+      }
+      return -1LL;
+    };
+    const long long before = bytes_read();
+    const std::string error = error_of(path);
+    const long long read = bytes_read() - before;
+    const bool is_good = error.rfind(path + ":4: a line of 4096 bytes or more", 0) == 0 && before >= 0;
+    // The head and the line, and what counting took.
+    ::_exit(!is_good ? 1 : read > 3 * 4096 ? 2 : 0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+}
+
+TEST_F(ReadTake, WhatIsNoFileIsRefusedWithoutBeingRead) {
+  EXPECT_EQ(error_of("/dev/zero"), "/dev/zero: cannot be read: it is a device; allowed are regular files and FIFOs");
+}
+
+TEST_F(ReadTake, AFifoIsReadToItsEnd) {
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  std::thread writer([&] { write_text(path, head + std::string(line)); });
+  EXPECT_EQ(read_take(path).params.size(), 1U);
+  writer.join();
 }
 
 TEST_F(ReadTake, WhatCannotBeReadSaysWhy) {

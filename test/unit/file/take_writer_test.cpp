@@ -14,6 +14,7 @@
 
 #include "error_of.h"
 #include "file/take.h"
+#include "file/take_writer.h"
 #include "temporary_directory.h"
 #include "trk_bridge/transport/source.h"
 #include "vectors.h"

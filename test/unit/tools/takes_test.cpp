@@ -1,15 +1,22 @@
 // One motion in three formats is one camera.
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "file/take.h"
+#include "program.h"
+#include "temporary_directory.h"
 #include "trk_bridge/camera/camera.h"
 #include "vectors.h"
 
 namespace trk_bridge {
 namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
 
 camera::Camera camera_of(const file::Take& take, std::size_t field) {
   const auto decoded = camera::decode(take.params.at(field), &take.constants);
@@ -37,6 +44,26 @@ TEST(Takes, ThreeFormatsAreOneCamera) {
       EXPECT_LT((expected.lens.center_shift - found.lens.center_shift).norm(), 2e-5) << i;
     }
   }
+}
+
+TEST(Takes, OneThatIsCutIsUsedToItsLastWholeLineWithAWarning) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory / "cut.trk", copy = directory / "copy.trk";
+  const std::string original = test::data_path("field/takes/euler.trk");
+  const std::string text = test::read_text(original);
+  test::write_text(path, text.substr(0, text.size() - 30));
+  const std::size_t fields = file::read_take(original).params.size() - 1;
+  const std::string source = "file:" + path + "?speed=0";
+  for (const auto& command :
+       std::vector<std::vector<std::string>>{{TRK_TOOL, "dump", source}, {TRK_TOOL, "relay", source, "file:" + copy}}) {
+    test::Program program(command);
+    program.rest_of_out();
+    const std::string err = program.rest_of_err();
+    EXPECT_THAT(err, ContainsRegex("line [0-9]+ is cut: "));
+    EXPECT_THAT(err, HasSubstr("(" + std::to_string(fields) + " parameters, 1 constants), malformed 1"));
+    EXPECT_EQ(program.wait(), 0) << err;
+  }
+  EXPECT_EQ(file::read_take(copy).params.size(), fields);
 }
 
 }  // namespace
