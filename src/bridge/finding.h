@@ -48,6 +48,9 @@ enum class Condition : std::uint8_t {
   sending,
   id_left_out,
   bad_camera_info,
+  tf_restarted,
+  tf_refused,
+  clocks_differ,
   tangential_lost,
   rows_disagree,
   bad_lens,
@@ -55,6 +58,10 @@ enum class Condition : std::uint8_t {
   sink_loses,
   sink_too_slow,
   queue_drops,
+  // of every node
+  ros_time_stands,
+  master_silent,
+  master_forgot,
 };
 
 /// A condition that holds, and a line for a person.

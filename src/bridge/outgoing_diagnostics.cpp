@@ -1,5 +1,7 @@
 #include "outgoing_diagnostics.h"
 
+#include <cmath>
+
 #include "base/time_text.h"
 #include "diagnostic_text.h"
 #include "diagnostics.h"
@@ -47,6 +49,20 @@ Finding state(const TfReport& now, const TfReport& before, double rate) {
   }
   if (now.tf.dropped > before.tf.dropped) return nothing_sent(sets, now.time, camera::describe(now.tf.drop_reason));
   return nothing_sent(sets, now.time, "tf is stale, its newest pose is of " + base::seconds_text(now.last_pose));
+}
+
+void add_clock_findings(std::vector<Finding>& found, const TfReport& now, const TfReport& before) {
+  if (now.gate.restarts > before.gate.restarts) {
+    warn(found, Condition::tf_restarted, "tf was cleared and read on: " + describe(now.gate.last_restart));
+  } else if (now.gate.refused > before.gate.refused) {
+    warn(found, Condition::tf_refused, "transforms refused: " + describe(now.gate.last_refused));
+  }
+  const double ahead = seconds_between(0, now.ahead);
+  if (found.front().condition == Condition::sending && std::abs(ahead) > 1) {
+    warn(found, Condition::clocks_differ,
+         "the stamps of tf are " + duration_text(std::abs(ahead)) + (ahead > 0 ? " ahead of" : " behind") +
+             " ROS time: check the clocks of all machines, and /use_sim_time where a bag plays");
+  }
 }
 
 void add_lens_findings(std::vector<Finding>& found, const TfReport& now, const TfReport& before) {
@@ -138,6 +154,7 @@ std::vector<Finding> findings(const ParamsReport& now, const ParamsReport& befor
 
 std::vector<Finding> findings(const TfReport& now, const TfReport& before, double rate) {
   std::vector<Finding> found{state(now, before, rate)};
+  add_clock_findings(found, now, before);
   add_lens_findings(found, now, before);
   return found;
 }
@@ -173,6 +190,10 @@ void fill(Status& status, const std::vector<Finding>& found, const TfReport& now
   status.add("dropped", tf.dropped);
   status.add("stamp of last set", tf.last_stamp > 0 ? base::seconds_text(tf.last_stamp) : std::string("none"));
   status.add("tf", now.pose_fault.empty() ? std::string("ok") : now.pose_fault);
+  status.add("tf ahead of ROS time (s)", two_decimals(seconds_between(0, now.ahead)));
+  status.add("transforms refused", now.gate.refused);
+  status.add("tf restarts", now.gate.restarts);
+  status.add("last tf restart", now.gate.restarts > 0 ? describe(now.gate.last_restart) : std::string("none"));
   status.add("camera_info received", tf.infos);
   status.add("camera_info refused", tf.refused_infos);
   status.add("age of last camera_info (s)", age_text(tf.infos > 0, tf.last_info, now.time));

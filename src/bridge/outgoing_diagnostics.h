@@ -10,6 +10,7 @@
 #include "outlet.h"
 #include "params_to_trk.h"
 #include "tf_to_trk.h"
+#include "transform_gate.h"
 
 namespace trk_bridge::bridge {
 
@@ -23,9 +24,11 @@ struct ParamsReport {
 /// One look at the input `tf`.
 struct TfReport {
   TfToTrkStatistics tf;
+  TransformGateStatistics gate;
   std::string info_topic;      ///< as it is waited for
   std::string pose_fault;      ///< why tf has no pose now, in tf's own words; empty: it has one
   std::int64_t last_pose = 0;  ///< ns since 1970, stamp of the newest pose that tf gave; 0: none or a static one
+  std::int64_t ahead = 0;      ///< ns that it was ahead of ROS time when it was found; 0: not known, or static
   std::int64_t time = 0;
 };
 

@@ -53,10 +53,12 @@ void TfToTrk::use_lens(double focdist, double aperture) noexcept {
   aperture_ = aperture;
 }
 
-bool TfToTrk::is_new(std::int64_t stamp) const noexcept {
-  constexpr std::int64_t jump = 1'000'000'000;
-  if (!last_pose_ || stamp == 0) return true;
-  return stamp > *last_pose_ || *last_pose_ - stamp > jump;
+void TfToTrk::restart() noexcept {
+  last_pose_.reset();
+  if (count_ == 0) return;
+  lenses_[0] = newest();
+  lenses_[0].stamp = 0;
+  count_ = 1;
 }
 
 const TfToTrk::StampedLens& TfToTrk::newest(std::size_t back) const noexcept {
@@ -64,8 +66,9 @@ const TfToTrk::StampedLens& TfToTrk::newest(std::size_t back) const noexcept {
 }
 
 const TfToTrk::StampedLens& TfToTrk::lens_at(std::int64_t stamp) const noexcept {
+  constexpr std::int64_t most_apart = 1'000'000'000;
   const std::size_t kept = std::min<std::uint64_t>(count_, history);
-  if (stamp == 0) return newest();
+  if (stamp == 0 || newest().stamp - stamp > most_apart) return newest();
   for (std::size_t back = 0; back < kept; ++back) {
     if (newest(back).stamp <= stamp) return newest(back);
   }

@@ -54,8 +54,10 @@ class TfToTrk {
   void use_lens(double focdist, double aperture) noexcept;
 
   /// Whether a pose of this stamp is newer than the last one that a set was made of or that was dropped. A static pose
-  /// always is, as is one older by more than a second, for then time itself jumped back.
-  bool is_new(std::int64_t stamp) const noexcept;
+  /// always is.
+  bool is_new(std::int64_t stamp) const noexcept { return !last_pose_ || stamp == 0 || stamp > *last_pose_; }
+  /// The clock of the poses was set: any stamp is new now, and the newest lens is that of any pose until others come.
+  void restart() noexcept;
   /// Whether waiting for a moment may bring a lens of the same stamp: so far lenses had the stamps of poses, and the
   /// one of this pose has not come.
   bool expects_lens(std::int64_t stamp) const noexcept;
@@ -63,8 +65,9 @@ class TfToTrk {
 
   /// The set for a pose in the studio: canonical (euler, image distance in mm, shift on the chip, blanks considered),
   /// id 0, with the lens of the newest CameraInfo that is not newer than the pose: for a static pose the newest one of
-  /// all, for a pose older than all that are kept the oldest of them. None where there is no lens, or none that trk can
-  /// send, or the pose is not finite. The counter goes up by one with every set.
+  /// all, for a pose older than all that are kept the oldest of them. Where the newest CameraInfo is more than 1 s
+  /// newer than the pose, their clocks do not agree, and it is used, too. None where there is no lens, or none that trk
+  /// can send, or the pose is not finite. The counter goes up by one with every set.
   std::optional<OutgoingSet> make(const Eigen::Isometry3d& studio_T_frame, std::int64_t stamp, std::int64_t now);
 
   const TfToTrkStatistics& statistics() const noexcept { return statistics_; }

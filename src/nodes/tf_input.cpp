@@ -1,5 +1,7 @@
 #include "tf_input.h"
 
+#include <tf2/exceptions.h>
+
 #include "base/clock.h"
 #include "ros/camera_info.h"
 #include "trk_bridge/ros/frames.h"
@@ -17,11 +19,21 @@ TfInput::TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& paramet
     : write_(std::move(write)),
       parameters_(parameters),
       period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.rate))),
-      listener_(transforms_, node, /*spin_thread=*/true, no_delay()),
+      gate_(parameters.studio_frame, parameters.camera_frame),
       sets_(parameters.tf),
       reporter_(parameters.name),
-      sent_form_(parameters.form.format) {
+      sent_form_(parameters.form.format),
+      tf_thread_(1, &tf_queue_) {
   const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
+  using TfEvent = ::ros::MessageEvent<const tf2_msgs::TFMessage>;
+  auto tf_node = node;
+  tf_node.setCallbackQueue(&tf_queue_);
+  tf_ = tf_node.subscribe<tf2_msgs::TFMessage, const TfEvent&>(
+      "/tf", queue, [this](const TfEvent& event) { receive(event, /*is_static=*/false); }, ::ros::VoidConstPtr(),
+      no_delay());
+  static_tf_ = tf_node.subscribe<tf2_msgs::TFMessage, const TfEvent&>(
+      "/tf_static", queue, [this](const TfEvent& event) { receive(event, /*is_static=*/true); }, ::ros::VoidConstPtr(),
+      no_delay());
   camera_info_ = node.subscribe<sensor_msgs::CameraInfo>(
       "camera_info", queue, [this](const sensor_msgs::CameraInfoConstPtr& message) { receive(*message); },
       ::ros::VoidConstPtr(), no_delay());
@@ -33,6 +45,7 @@ TfInput::TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& paramet
       },
       ::ros::VoidConstPtr(), no_delay());
   sent_ = node.advertise<trk_bridge::CameraParams>("sent", queue);
+  tf_thread_.start();
   thread_ = std::thread([this] { run(); });
 }
 
@@ -43,6 +56,36 @@ TfInput::~TfInput() {
   }
   changed_.notify_all();
   thread_.join();
+  tf_thread_.stop();
+}
+
+void TfInput::receive(const ::ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static) {
+  const std::string sender = event.getPublisherName();
+  const auto ros_now = ros1::from_time(::ros::Time::now());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& transform : event.getConstMessage()->transforms) {
+    if (is_static) {
+      gate_.add_static(transform.header.frame_id, transform.child_frame_id);
+    } else if (!passes(transform, sender, ros_now)) {
+      continue;
+    }
+    transforms_.setTransform(transform, sender, is_static);
+  }
+}
+
+bool TfInput::passes(const geometry_msgs::TransformStamped& transform, const std::string& sender,
+                     std::int64_t ros_now) {
+  if (gate_.ros_time_went_back(ros_now)) start_over();
+  const bridge::StampedLink link{transform.header.frame_id, transform.child_frame_id,
+                                 ros1::from_time(transform.header.stamp), sender};
+  const auto verdict = gate_.judge(link, ros_now, base::steady_now());
+  if (verdict == bridge::TransformGate::Verdict::restart) start_over();
+  return verdict != bridge::TransformGate::Verdict::refuse;
+}
+
+void TfInput::start_over() {
+  transforms_.clear();
+  sets_.restart();
 }
 
 void TfInput::receive(const sensor_msgs::CameraInfo& message) {
@@ -84,18 +127,22 @@ TfInput::Pose TfInput::newest_pose() const {
 }
 
 bool TfInput::look() {
-  const auto pose = newest_pose();
+  const auto ros_now = ros1::from_time(::ros::Time::now());
+  Pose pose;
   std::optional<bridge::OutgoingSet> set;
   {
     std::unique_lock<std::mutex> lock(mutex_);
+    pose = newest_pose();
     pose_fault_ = pose ? std::string() : pose.error();
     if (!pose) return true;
     const auto stamp = ros1::from_time(pose->header.stamp);
     last_pose_ = stamp;
     if (!sets_.is_new(stamp)) return false;
+    ahead_ = stamp == 0 || ros_now == 0 ? 0 : stamp - ros_now;
+    const auto restarts = gate_.statistics().restarts;
     // tf and camera_info of one moment come on connections of their own.
     changed_.wait_for(lock, period_ / 4, [&] { return stopping_ || !sets_.expects_lens(stamp); });
-    if (stopping_) return true;
+    if (stopping_ || restarts != gate_.statistics().restarts) return true;
     set = sets_.make(ros1::to_isometry(pose->transform), stamp, base::steady_now());
   }
   if (!set) return true;
@@ -122,7 +169,9 @@ bridge::Status TfInput::describe() {
     const std::lock_guard<std::mutex> lock(mutex_);
     report.tf = sets_.statistics();
     report.pose_fault = pose_fault_;
+    report.gate = gate_.statistics();
     report.last_pose = last_pose_;
+    report.ahead = ahead_;
   }
   report.info_topic = camera_info_.getTopic();
   report.time = base::steady_now();

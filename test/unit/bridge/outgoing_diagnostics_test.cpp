@@ -112,6 +112,32 @@ TEST_F(TfDiagnostics, StaleTfIsShownWithTheStampOfItsNewestPose) {
   expect(status(), Level::warn, "nothing sent for 2.0 s: tf is stale, its newest pose is of 1700000000.020000000");
 }
 
+TEST_F(TfDiagnostics, ClocksThatWereFollowedOrRefusedAreShownWithTheReason) {
+  now.gate.refused = 1;
+  now.gate.last_refused = {StampJump::Kind::ahead, "crane1", "/crane_driver", 1e6};
+  expect(status(), Level::warn,
+         "sending at 50.00 Hz; transforms refused: the stamps of frame crane1 from /crane_driver are 1000000.0 s ahead "
+         "of ROS time");
+  now.gate.restarts = 1;
+  now.gate.last_restart = {StampJump::Kind::back, "crane1", "/crane_driver", 60};
+  const std::string reason = "the stamps of frame crane1 from /crane_driver went back by 60.0 s";
+  expect(status(), Level::warn, "tf was cleared and read on: " + reason);
+  EXPECT_THAT(status().message, Not(HasSubstr("refused")));
+  EXPECT_EQ(value_of(status(), "last tf restart"), reason);
+  before.gate = now.gate;
+  expect(status(), Level::ok, "sending");
+}
+
+TEST_F(TfDiagnostics, ClocksThatDifferAreShown) {
+  now.ahead = 3600 * second;
+  expect(status(), Level::warn, "the stamps of tf are 3600.0 s ahead of ROS time: check the clocks");
+  now.ahead = -60 * second;
+  expect(status(), Level::warn, "the stamps of tf are 60.0 s behind ROS time: check the clocks");
+  now.ahead = -second / 5;
+  expect(status(), Level::ok, "sending");
+  EXPECT_EQ(value_of(status(), "tf ahead of ROS time (s)"), "-0.20");
+}
+
 TEST_F(TfDiagnostics, SlowRatesMaySleepLonger) {
   now.tf.last_set = now.time - 2 * second;
   EXPECT_EQ(findings(now, before, 1).front().level, Level::ok);

@@ -95,7 +95,7 @@ TEST(TfToTrk, CountsUpByOneWithEverySet) {
   }
 }
 
-TEST(TfToTrk, OnlyNewerPosesAreNewUnlessTimeJumpedBack) {
+TEST(TfToTrk, OnlyNewerPosesAreNewUntilTheClockIsSet) {
   TfToTrk converter(options());
   converter.use(info(), field(0), 0);
   EXPECT_TRUE(converter.is_new(field(10)));
@@ -103,8 +103,32 @@ TEST(TfToTrk, OnlyNewerPosesAreNewUnlessTimeJumpedBack) {
   EXPECT_FALSE(converter.is_new(field(10)));
   EXPECT_FALSE(converter.is_new(field(9)));
   EXPECT_TRUE(converter.is_new(field(11)));
-  EXPECT_TRUE(converter.is_new(start - 5 * second));
+  EXPECT_FALSE(converter.is_new(start - 5 * second));
   EXPECT_TRUE(converter.is_new(static_stamp)) << "static transforms alone are never stale";
+  converter.restart();
+  EXPECT_TRUE(converter.is_new(start - 5 * second));
+  ASSERT_TRUE(converter.make(pose(), start - 5 * second, 0));
+  EXPECT_FALSE(converter.is_new(start - 5 * second));
+  EXPECT_TRUE(converter.is_new(start - 4 * second));
+}
+
+TEST(TfToTrk, AClockThatIsSetBackKeepsTheNewestLensAndWaitsForTheNext) {
+  TfToTrk converter(options());
+  for (int n = 0; n < 10; ++n) converter.use(info(2000 + 200 * n), field(n), 0);
+  ASSERT_TRUE(converter.make(pose(), field(9), 0));
+  converter.restart();
+  const std::int64_t earlier = start - 60 * second;
+  EXPECT_TRUE(converter.expects_lens(earlier));
+  EXPECT_NEAR(converter.make(pose(), earlier, 0)->params.fov, 19, 1e-9);
+  converter.use(info(4000), earlier + second / 50, 0);
+  EXPECT_NEAR(converter.make(pose(), earlier + second / 50, 0)->params.fov, 20, 1e-9);
+}
+
+TEST(TfToTrk, WhereClocksDoNotAgreeTheNewestLensIsUsed) {
+  TfToTrk converter(options());
+  for (int n = 0; n < 100; ++n) converter.use(info(2000 + 20 * n), field(n), 0);
+  EXPECT_NEAR(converter.make(pose(), start - 60 * second, 0)->params.fov, 19.9, 1e-9);
+  EXPECT_NEAR(converter.make(pose(), start + 3600 * second, 0)->params.fov, 19.9, 1e-9);
 }
 
 TEST(TfToTrk, NothingWithoutALens) {
@@ -123,7 +147,7 @@ TEST(TfToTrk, ALensGoesWithThePoseOfItsStamp) {
   EXPECT_NEAR(converter.make(pose(), field(4), 0)->params.fov, 14, 1e-9);
   EXPECT_NEAR(converter.make(pose(), field(6) + second / 200, 0)->params.fov, 16, 1e-9) << "the one before it";
   EXPECT_NEAR(converter.make(pose(), field(50), 0)->params.fov, 19, 1e-9);
-  EXPECT_NEAR(converter.make(pose(), start - 9 * second, 0)->params.fov, 10, 1e-9) << "the oldest there is";
+  EXPECT_NEAR(converter.make(pose(), field(-9), 0)->params.fov, 10, 1e-9) << "the oldest there is";
   EXPECT_NEAR(converter.make(pose(), static_stamp, 0)->params.fov, 19, 1e-9);
 }
 

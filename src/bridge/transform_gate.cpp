@@ -1,0 +1,101 @@
+#include "transform_gate.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "diagnostic_text.h"
+
+namespace trk_bridge::bridge {
+namespace {
+
+constexpr std::int64_t most_off = 1'000'000'000;  // ns
+
+/// tf2 takes frames with a leading slash for the same.
+std::string without_slash(const std::string& frame) { return frame.rfind('/', 0) == 0 ? frame.substr(1) : frame; }
+
+}  // namespace
+
+std::string describe(const StampJump& jump) {
+  const std::string far = duration_text(jump.seconds);
+  if (jump.kind == StampJump::Kind::ros_time_back) return "ROS time went back by " + far;
+  const std::string whose = "the stamps of frame " + jump.frame + " from " + jump.sender;
+  return jump.kind == StampJump::Kind::ahead ? whose + " are " + far + " ahead of ROS time"
+                                             : whose + " went back by " + far;
+}
+
+TransformGate::TransformGate(std::string studio_frame, std::string camera_frame)
+    : studio_frame_(std::move(studio_frame)), camera_frame_(std::move(camera_frame)) {}
+
+void TransformGate::add_static(const std::string& parent, const std::string& child) {
+  links_[without_slash(child)].parent = without_slash(parent);
+}
+
+bool TransformGate::ros_time_went_back(std::int64_t ros_now) {
+  const std::int64_t back = std::exchange(last_ros_now_, ros_now) - ros_now;
+  if (back <= most_off) return false;
+  start_over({StampJump::Kind::ros_time_back, "", "", seconds_between(0, back)});
+  ahead_ = 0;
+  return true;
+}
+
+TransformGate::Verdict TransformGate::judge(const StampedLink& given, std::int64_t ros_now, std::int64_t now) {
+  const std::string child = without_slash(given.child);
+  auto& link = links_[child];
+  link.parent = without_slash(given.parent);
+  const auto jump = jump_of(link, given, ros_now, now);
+  if (jump) {
+    if (!link.refused_since) link.refused_since = now;
+    // What happens to others is not this camera's concern.
+    if (!pose_depends_on(child)) return Verdict::refuse;
+    if (now - *link.refused_since < patience) {
+      ++statistics_.refused;
+      statistics_.last_refused = *jump;
+      return Verdict::refuse;
+    }
+    start_over(*jump);
+    ahead_ = std::max<std::int64_t>(given.stamp - ros_now, 0);
+  }
+  if (!link.newest || given.stamp > *link.newest) {
+    link.newest = given.stamp;
+    link.newest_at = now;
+  }
+  link.refused_since.reset();
+  return jump ? Verdict::restart : Verdict::use;
+}
+
+std::optional<StampJump> TransformGate::jump_of(const Link& link, const StampedLink& given, std::int64_t ros_now,
+                                                std::int64_t now) const {
+  const std::int64_t expected = link.newest ? *link.newest + (now - link.newest_at) : ros_now + ahead_;
+  if (given.stamp > std::max(ros_now, expected) + most_off) {
+    return StampJump{StampJump::Kind::ahead, given.child, given.sender, seconds_between(ros_now, given.stamp)};
+  }
+  if (link.newest && given.stamp < *link.newest - most_off) {
+    return StampJump{StampJump::Kind::back, given.child, given.sender, seconds_between(given.stamp, expected)};
+  }
+  return std::nullopt;
+}
+
+bool TransformGate::pose_depends_on(const std::string& child) const {
+  for (const auto& end : {camera_frame_, studio_frame_}) {
+    const std::string* frame = &end;
+    // Wrong transforms can make a circle.
+    for (std::size_t steps = 0; steps <= links_.size(); ++steps) {
+      if (*frame == child) return true;
+      const auto found = links_.find(*frame);
+      if (found == links_.end()) break;
+      frame = &found->second.parent;
+    }
+  }
+  return false;
+}
+
+void TransformGate::start_over(const StampJump& jump) {
+  ++statistics_.restarts;
+  statistics_.last_restart = jump;
+  for (auto& [child, link] : links_) {
+    link.newest.reset();
+    link.refused_since.reset();
+  }
+}
+
+}  // namespace trk_bridge::bridge
