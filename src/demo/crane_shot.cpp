@@ -25,12 +25,13 @@ struct Parameters {
   std::string optical_frame = "camera_optical";
 };
 
-Parameters read_parameters(const XmlRpc::XmlRpcValue& tree) {
+Parameters read_crane_parameters(const XmlRpc::XmlRpcValue& tree) {
   ros1::ParameterReader reader(tree);
   Parameters parameters;
   reader.number("rate", parameters.rate, {1, 1000, "Hz"});
   reader.choice("joints", parameters.moves_joints, {{"shot", true}, {"external", false}});
   reader.parsed("optical_frame", parameters.optical_frame, ros1::parse_frame);
+  reader.diagnostic_period();
   reader.finish();
   return parameters;
 }
@@ -43,8 +44,9 @@ T sound(camera::Result<T> result, const char* what) {
 
 }  // namespace
 
-CraneShot::CraneShot(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string&) {
-  const auto parameters = read_parameters(nodes::private_parameters(private_node));
+CraneShot::CraneShot(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string& name)
+    : diagnostics_(node, private_node, name) {
+  const auto parameters = nodes::read_parameters(private_node, read_crane_parameters);
   rate_ = parameters.rate;
   moves_joints_ = parameters.moves_joints;
   camera_info_.header.frame_id = parameters.optical_frame;
@@ -54,6 +56,7 @@ CraneShot::CraneShot(::ros::NodeHandle node, const ::ros::NodeHandle& private_no
   if (moves_joints_) joint_states_ = node.advertise<sensor_msgs::JointState>("joint_states", queue);
   camera_infos_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", queue);
   lenses_ = node.advertise<trk_bridge::CameraParams>("lens", queue);
+  diagnostics_.start();
   thread_ = std::thread([this] { run(); });
 }
 

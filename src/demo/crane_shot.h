@@ -12,6 +12,7 @@
 #include <sensor_msgs/JointState.h>
 #include <trk_bridge/CameraParams.h>
 
+#include "nodes/node_diagnostics.h"
 #include "trk_bridge/camera/calibration.h"
 
 namespace trk_bridge::demo {
@@ -40,6 +41,7 @@ class CraneShot {
   sensor_msgs::CameraInfo camera_info_;
   trk_bridge::CameraParams lens_;
   camera::Calibrator calibrator_;
+  nodes::NodeDiagnostics diagnostics_;
 
   std::mutex mutex_;
   std::condition_variable stop_;

@@ -37,9 +37,11 @@ cv::Mat picture_of(sensor_msgs::Image& image, int width, int height) {
 
 }  // namespace
 
-TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string&) {
-  const auto parameters =
-      read_test_card_parameters(nodes::private_parameters(private_node), nodes::camera_name_of(node.getNamespace()));
+TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string& name)
+    : diagnostics_(node, private_node, name) {
+  const auto parameters = nodes::read_parameters(private_node, [&](const auto& tree) {
+    return read_test_card_parameters(tree, nodes::camera_name_of(node.getNamespace()));
+  });
   figure_ = figure_at(parameters.place);
   period_ = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.rate));
   image_.header.frame_id = parameters.optical_frame;
@@ -61,6 +63,7 @@ TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node
   info_subscriber_ = node.subscribe<sensor_msgs::CameraInfo>(
       "camera_info", static_cast<std::uint32_t>(kept_infos),
       [this](const sensor_msgs::CameraInfoConstPtr& message) { receive(message); });
+  diagnostics_.start();
 }
 
 void TestCard::receive(const trk_bridge::CameraParamsConstPtr& message) {

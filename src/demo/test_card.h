@@ -14,6 +14,7 @@
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
 
+#include "nodes/node_diagnostics.h"
 #include "test_card_figure.h"
 #include "trk_bridge/wire/record.h"
 
@@ -63,6 +64,7 @@ class TestCard {
   image_transport::Publisher images_, rectified_images_, paired_images_;
   ::ros::Publisher paired_infos_, markers_;
   ::ros::Subscriber params_subscriber_, constants_subscriber_, info_subscriber_;
+  nodes::NodeDiagnostics diagnostics_;
 };
 
 }  // namespace trk_bridge::demo

@@ -14,6 +14,7 @@ TestCardParameters read_test_card_parameters(const XmlRpc::XmlRpcValue& tree, co
   reader.number("rate", parameters.rate, {0.1, 240, "Hz"});
   reader.parsed("studio_frame", parameters.studio_frame, ros1::parse_frame);
   reader.parsed("optical_frame", parameters.optical_frame, ros1::parse_frame);
+  reader.diagnostic_period();
   Place& place = parameters.place;
   reader.number("x", place.x, {-1e4, 1e4, "m"});
   reader.number("y", place.y, {-1e4, 1e4, "m"});

@@ -12,14 +12,23 @@
 #include <ros/init.h>
 #include <ros/node_handle.h>
 #include <ros/this_node.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include "ros/parameter_reader.h"
 
 namespace trk_bridge::nodes {
 
-/// All private parameters; an invalid value when there are none.
-inline XmlRpc::XmlRpcValue private_parameters(const ::ros::NodeHandle& private_node) {
+/// What `read` makes of all private parameters, an invalid value when there are none. Its ParameterError gets the
+/// remedy.
+template <typename Read>
+auto read_parameters(const ::ros::NodeHandle& private_node, const Read& read) {
   XmlRpc::XmlRpcValue tree;
   private_node.getParam(private_node.getNamespace(), tree);
-  return tree;
+  try {
+    return read(tree);
+  } catch (const ros1::ParameterError& error) {
+    throw error.with_remedy(private_node.getNamespace());
+  }
 }
 
 /// The last element of a namespace names the camera in it; `camera` in the root.

@@ -1,42 +1,39 @@
 // A node's statuses on /diagnostics, sent at their period also while nothing else happens.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
-#include <utility>
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
 
+#include "bridge/ros_report.h"
 #include "bridge/status.h"
-#include "ros/diagnostics.h"
+#include "master_watch.h"
+#include "status_reporter.h"
 
 namespace trk_bridge::nodes {
 
 /// Statuses are named `<name>: <subject>` and sent from the callback queue of `node`, whose thread calls their
-/// functions.
+/// functions. The last one is about ROS itself, in every node.
 class NodeDiagnostics {
  public:
-  NodeDiagnostics(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node, const std::string& name)
-      : node_(node), updater_(node, private_node, name) {
-    updater_.setHardwareID("trk");
-  }
+  NodeDiagnostics(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node, const std::string& name);
 
-  void add(const std::string& subject, std::function<bridge::Status()> describe) {
-    updater_.add(subject, [describe = std::move(describe)](diagnostic_updater::DiagnosticStatusWrapper& status) {
-      ros1::to_msg(describe(), status);
-    });
-  }
-
-  void start() {
-    timer_ = node_.createWallTimer(::ros::WallDuration(updater_.getPeriod()),
-                                   [this](const ::ros::WallTimerEvent&) { updater_.force_update(); });
-  }
+  void add(const std::string& subject, std::function<bridge::Status()> describe);
+  /// To be called when all have been added.
+  void start();
 
  private:
+  bridge::Status describe_ros();
+
   ::ros::NodeHandle node_;
   diagnostic_updater::Updater updater_;
+  MasterWatch master_;
+  std::int64_t ros_time_ = 0, ros_time_moved_ = 0;  // see RosReport
+  StatusReporter<bridge::RosReport> ros_reporter_;
   ::ros::WallTimer timer_;
 };
 

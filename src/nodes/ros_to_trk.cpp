@@ -9,8 +9,9 @@ namespace trk_bridge::nodes {
 
 RosToTrk::RosToTrk(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node, const std::string& name)
     : diagnostics_(node, private_node, name) {
-  const auto parameters =
-      ros1::read_ros_to_trk_parameters(private_parameters(private_node), camera_name_of(node.getNamespace()));
+  const auto parameters = read_parameters(private_node, [&](const auto& tree) {
+    return ros1::read_ros_to_trk_parameters(tree, camera_name_of(node.getNamespace()));
+  });
   for (const auto& sink : parameters.sinks) sinks_.push_back(std::make_unique<SinkOutput>(sink, parameters.form));
   const auto write_all = [this](const bridge::OutgoingSet& set) {
     for (const auto& sink : sinks_) sink->write(set);

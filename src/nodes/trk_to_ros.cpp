@@ -26,8 +26,9 @@ namespace {
 
 TrkToRos::TrkToRos(const ::ros::NodeHandle& node, ::ros::NodeHandle private_node, const std::string& name)
     : node_(node), diagnostics_(node_, private_node, name) {
-  const auto parameters =
-      ros1::read_trk_to_ros_parameters(private_parameters(private_node), camera_name_of(node_.getNamespace()));
+  const auto parameters = read_parameters(private_node, [this](const auto& tree) {
+    return ros1::read_trk_to_ros_parameters(tree, camera_name_of(node_.getNamespace()));
+  });
   open(parameters, advertise_markers(private_node, parameters));
   send_static_transforms();
   diagnostics_.start();

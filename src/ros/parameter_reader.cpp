@@ -1,6 +1,7 @@
 #include "parameter_reader.h"
 
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -35,9 +36,35 @@ bool contains(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
+std::optional<std::uint32_t> id_of(XmlRpcValue& value) {
+  if (value.getType() == XmlRpcValue::TypeString) {
+    const auto& text = static_cast<const std::string&>(value);
+    std::uint32_t id = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id);
+    if (error == std::errc() && end == text.data() + text.size()) return id;
+    return std::nullopt;
+  }
+  double number = -1;
+  if (value.getType() == XmlRpcValue::TypeInt) number = static_cast<int&>(value);
+  if (value.getType() == XmlRpcValue::TypeDouble) number = static_cast<double&>(value);
+  constexpr Range range{0, std::numeric_limits<std::uint32_t>::max()};
+  if (!range.contains(number) || number != std::floor(number)) return std::nullopt;
+  return static_cast<std::uint32_t>(number);
+}
+
 }  // namespace
 
-ParameterError::ParameterError(const std::vector<std::string>& faults) : std::runtime_error(joined(faults, "\n")) {}
+ParameterError::ParameterError(ParameterFaults faults) : ParameterError(std::move(faults), "") {}
+
+ParameterError::ParameterError(ParameterFaults faults, const std::string& remedy)
+    : std::runtime_error(joined(faults.lines, "\n") + remedy), faults_(std::move(faults)) {}
+
+ParameterError ParameterError::with_remedy(const std::string& node) const {
+  if (faults_.given.empty()) return *this;
+  std::string remedy = "\nParameters stay on the master when a node ends. To remove those that are refused:";
+  for (const auto& key : faults_.given) remedy += "\n  rosparam delete " + node + '/' + key;
+  return {faults_, remedy};
+}
 
 bool Range::contains(double value) const noexcept {
   return std::isfinite(value) && (excludes_least ? value > least : value >= least) && value <= most;
@@ -85,14 +112,13 @@ tl::expected<std::string, std::string> parse_frame(const std::string& frame) {
 }
 
 ParameterReader::ParameterReader(const XmlRpcValue& tree)
-    : ParameterReader(tree, "~", std::make_shared<std::vector<std::string>>()) {}
+    : ParameterReader(tree, "", std::make_shared<ParameterFaults>()) {}
 
-ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string path,
-                                 std::shared_ptr<std::vector<std::string>> faults)
+ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string path, std::shared_ptr<ParameterFaults> faults)
     : tree_(tree), path_(std::move(path)), faults_(std::move(faults)) {
   if (tree_.getType() == XmlRpcValue::TypeStruct) return;
   // An empty map arrives as an invalid value.
-  if (tree_.valid()) faults_->push_back(path_ + " = " + text_of(tree_) + ": must be a map of parameters");
+  if (tree_.valid()) faults_->lines.push_back('~' + path_ + " = " + text_of(tree_) + ": must be a map of parameters");
   tree_.clear();
 }
 
@@ -126,14 +152,18 @@ bool ParameterReader::are_sound(std::initializer_list<const char*> keys) const {
 }
 
 void ParameterReader::fault(const std::string& key, const std::string& value, const std::string& allowed) {
-  faults_->push_back(path_ + key + " = " + value + ": " + allowed);
+  add_line(key, key + " = " + value + ": " + allowed);
 }
 
-void ParameterReader::fault(const std::string& key, const std::string& text) {
-  faults_->push_back(path_ + key + ": " + text);
-}
+void ParameterReader::fault(const std::string& key, const std::string& text) { add_line(key, key + ": " + text); }
 
-void ParameterReader::fault(const std::string& text) { faults_->push_back(text); }
+void ParameterReader::fault(const std::string& text) { faults_->lines.push_back(text); }
+
+void ParameterReader::add_line(const std::string& key, const std::string& line) {
+  faults_->lines.push_back('~' + path_ + line);
+  auto& given = faults_->given;
+  if (has(key) && !contains(given, path_ + key)) given.push_back(path_ + key);
+}
 
 bool ParameterReader::refuse(const std::string& key, const std::string& value, const std::string& allowed) {
   fault(key, value, allowed);
@@ -196,10 +226,13 @@ bool ParameterReader::flag(const std::string& key, bool& into) {
 }
 
 bool ParameterReader::id(const std::string& key, std::optional<std::uint32_t>& into) {
-  int given = 0;
-  if (!integer(key, given, at_least(0))) return false;
-  into = static_cast<std::uint32_t>(given);
-  return true;
+  auto* value = find(key);
+  if (value == nullptr) return false;
+  if (const auto given = id_of(*value)) {
+    into = *given;
+    return true;
+  }
+  return refuse(key, text_of(*value), "must be an integer, 0 to 4294967295; above 2147483647 as text: \"4294967295\"");
 }
 
 bool ParameterReader::constants(const std::string& key, std::optional<wire::CameraConstants>& into) {
@@ -266,7 +299,7 @@ void ParameterReader::refuse_unknown() {
 
 void ParameterReader::finish() {
   refuse_unknown();
-  if (!faults_->empty()) throw ParameterError(*faults_);
+  if (!faults_->lines.empty()) throw ParameterError(*faults_);
 }
 
 }  // namespace trk_bridge::ros1

@@ -19,10 +19,25 @@
 
 namespace trk_bridge::ros1 {
 
-/// The text names the key, the value and what is allowed; one line for every fault.
+/// What is wrong with a node's parameters.
+struct ParameterFaults {
+  std::vector<std::string> lines;  ///< each names the key, the value and what is allowed
+  std::vector<std::string> given;  ///< keys whose values are on the master and refused, relative to the node's name
+};
+
+/// The text has one line for every fault.
 class ParameterError : public std::runtime_error {
  public:
-  explicit ParameterError(const std::vector<std::string>& faults);
+  explicit ParameterError(ParameterFaults faults);
+
+  /// The same, and how to remove from the master what is refused: it stays there when the node ends, and would make the
+  /// next start fail. `node` is the node's full name.
+  ParameterError with_remedy(const std::string& node) const;
+
+ private:
+  ParameterError(ParameterFaults faults, const std::string& remedy);
+
+  ParameterFaults faults_;
 };
 
 /// The values that a number may have. Infinite ones and NaN are in no range.
@@ -75,7 +90,8 @@ class ParameterReader {
   /// A list of texts, each kept parsed; one text is a list of one.
   template <typename Value, typename Parse>
   bool parsed_list(const std::string& key, std::vector<Value>& into, const Parse& parse);
-  /// A camera's number.
+  /// A camera's number, 0 to 4294967295. Integers of the master end at 2147483647: larger ones are texts, or numbers
+  /// with a point, which rosrun makes of them.
   bool id(const std::string& key, std::optional<std::uint32_t>& into);
   /// A map of the ten constants.
   bool constants(const std::string& key, std::optional<wire::CameraConstants>& into);
@@ -109,17 +125,18 @@ class ParameterReader {
   void finish();
 
  private:
-  ParameterReader(const XmlRpc::XmlRpcValue& tree, std::string path, std::shared_ptr<std::vector<std::string>> faults);
+  ParameterReader(const XmlRpc::XmlRpcValue& tree, std::string path, std::shared_ptr<ParameterFaults> faults);
 
   XmlRpc::XmlRpcValue* find(const std::string& key);
   std::optional<std::string> text(const std::string& key, const std::string& allowed);
   std::optional<std::vector<std::string>> texts(const std::string& key);
   bool is_sound(const std::string& key) const;
   bool refuse(const std::string& key, const std::string& value, const std::string& allowed);
+  void add_line(const std::string& key, const std::string& line);
 
   XmlRpc::XmlRpcValue tree_;
-  std::string path_;
-  std::shared_ptr<std::vector<std::string>> faults_;
+  std::string path_;  // of its keys, relative to the node's name
+  std::shared_ptr<ParameterFaults> faults_;
   std::vector<std::string> known_, faulty_;
   const ParameterReader* outer_ = nullptr;
 };

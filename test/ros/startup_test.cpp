@@ -7,6 +7,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Startup : public NodeProcessTest {
  protected:
@@ -27,7 +28,8 @@ TEST_F(Refused, AWrongEndpointIsNamed) {
 TEST_F(Refused, AnUnknownParameterIsNamedWithTheNearestKnown) {
   set("source", any_udp_port);
   set("publish_camera_inf", false);
-  EXPECT_THAT(refusal(), HasSubstr("~publish_camera_inf = 0: no such parameter, nearest is publish_camera_info"));
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("~publish_camera_inf = 0: no such parameter, nearest is publish_camera_info"),
+                               HasSubstr("\n  rosparam delete " + node_name + "/publish_camera_inf")));
 }
 
 TEST_F(Refused, AWrongTypeIsNamedWithWhatIsAllowed) {
@@ -47,6 +49,30 @@ TEST_F(Startup, APortInUseIsToldWithItsNumber) {
   const std::string port = std::to_string(taken.port());
   set("source", "udp://127.0.0.1:" + port);
   EXPECT_THAT(refusal(), HasSubstr(port));
+}
+
+TEST_F(Startup, TheLineThatDeletesAMistypedParameterMakesTheNextStartWork) {
+  set("source", any_udp_port);
+  Program({TRK_TO_ROS, "__ns:=" + name_space, "_formt:=euler"}).rest_of_err();
+  const std::string said = refusal();
+  const std::string command = "rosparam delete ";
+  const auto begin = said.find(command);
+  ASSERT_NE(begin, std::string::npos) << said;
+  const auto name = said.substr(begin + command.size());
+  Program deleting({"/usr/bin/env", "rosparam", "delete", name.substr(0, name.find_first_of("\n\x1b"))});
+  EXPECT_EQ(deleting.rest_of_err(), "");
+  EXPECT_EQ(deleting.wait(), 0);
+  EXPECT_TRUE(starts());
+}
+
+TEST_F(Startup, AnIdOf32BitsCanBeGivenToRosrunAndAsText) {
+  set("source", any_udp_port);
+  Program given({TRK_TO_ROS, "__ns:=" + name_space, "_id:=4294967295", "/diagnostics:=" + diagnostics.topic()});
+  EXPECT_TRUE(reports_on(camera));
+  given.signal(SIGINT);
+  EXPECT_THAT(given.rest_of_err(), Not(HasSubstr("cannot start")));
+  set("id", "4294967295");
+  EXPECT_TRUE(starts());
 }
 
 TEST_F(Startup, AnUnknownArgumentIsRefused) {

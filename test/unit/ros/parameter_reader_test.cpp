@@ -125,5 +125,72 @@ TEST(ParameterReader, AMapInheritsSoundnessAndAddsItsFaults) {
             "~other/rat = 1: no such parameter, nearest is rate; known are rate");
 }
 
+TEST(ParameterReader, TheRemedyDeletesWhatIsOnTheMasterAndRefused) {
+  XmlRpcValue tree;
+  tree["rate"] = "fast";
+  tree["cameras"]["one"]["rat"] = 1;
+  ParameterReader node(tree);
+  double rate = 50;
+  node.number("rate", rate);
+  node.fault("source", "must be given");
+  auto cameras = node.map("cameras");
+  auto one = cameras->map("one");
+  one->refuse_unknown();
+  std::string text;
+  try {
+    node.finish();
+  } catch (const ParameterError& error) {
+    text = error.with_remedy("/crane1/trk_to_ros").what();
+  }
+  EXPECT_THAT(text, ::testing::StartsWith("~rate = 'fast': must be a number\n~source: must be given\n"));
+  EXPECT_THAT(text, ::testing::EndsWith("\nParameters stay on the master when a node ends. To remove those that are "
+                                        "refused:\n"
+                                        "  rosparam delete /crane1/trk_to_ros/rate\n"
+                                        "  rosparam delete /crane1/trk_to_ros/cameras/one/rat"));
+}
+
+TEST(ParameterReader, NoRemedyForWhatIsMissing) {
+  ParameterReader node{XmlRpcValue()};
+  node.fault("source", "must be given");
+  EXPECT_EQ(test::error_of<ParameterError>([&] {
+              try {
+                node.finish();
+              } catch (const ParameterError& error) {
+                throw error.with_remedy("/node");
+              }
+            }),
+            "~source: must be given");
+}
+
+TEST(ParameterReader, IdsOf32Bits) {
+  const std::pair<XmlRpcValue, std::uint32_t> sound[] = {
+      {0, 0},
+      {2147483647, 2147483647},
+      {"7", 7},
+      {"4294967295", 4294967295},
+      {4294967295.0, 4294967295},  // what rosrun makes of _id:=4294967295
+  };
+  for (const auto& [value, id] : sound) {
+    XmlRpcValue tree;
+    tree["id"] = value;
+    ParameterReader reader(tree);
+    std::optional<std::uint32_t> read;
+    EXPECT_TRUE(reader.id("id", read)) << id;
+    EXPECT_EQ(read, id);
+  }
+  const std::pair<XmlRpcValue, const char*> wrong[] = {
+      {-1, "-1"}, {"4294967296", "'4294967296'"}, {"-1", "'-1'"}, {"", "''"}, {"1 ", "'1 '"}, {1.5, "1.5"},
+      {true, "1"}};
+  for (const auto& [value, shown_as] : wrong) {
+    XmlRpcValue tree;
+    tree["id"] = value;
+    ParameterReader reader(tree);
+    std::optional<std::uint32_t> read;
+    EXPECT_FALSE(reader.id("id", read));
+    EXPECT_EQ(end_of(reader), std::string("~id = ") + shown_as +
+                                  ": must be an integer, 0 to 4294967295; above 2147483647 as text: \"4294967295\"");
+  }
+}
+
 }  // namespace
 }  // namespace trk_bridge::ros1

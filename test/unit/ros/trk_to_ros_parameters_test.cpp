@@ -185,7 +185,7 @@ TEST(Read, ARuleIsNotJudgedOnFaultyInput) {
 
   tree = two_cameras();
   tree["cameras"]["left"]["id"] = -1;
-  EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~cameras/left/id = -1: must be 0 or more")));
+  EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~cameras/left/id = -1: must be an integer, 0 to 4294967295")));
 
   tree = two_cameras();
   tree["cameras"]["right"]["source"] = "udp://";
@@ -315,7 +315,7 @@ TEST(Read, RefusesWrongTypesWithKeyValueAndAllowed) {
 TEST(Read, RefusesNegativeIds) {
   auto tree = tree_with_source();
   tree["id"] = -1;
-  EXPECT_THAT(message_of(tree), HasSubstr("~id = -1: must be 0 or more"));
+  EXPECT_THAT(message_of(tree), HasSubstr("~id = -1: must be an integer, 0 to 4294967295"));
 }
 
 TEST(Read, WithCamerasIdAndFramesBelongToEach) {
