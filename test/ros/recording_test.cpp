@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <rosgraph_msgs/Clock.h>
+
 #include "file/take.h"
 #include "fixture.h"
 #include "program.h"
@@ -87,7 +89,18 @@ TEST_F(Recording, PlayedBackFeedsRosToTrk) {
   const auto back = file::read_take(sent);
   EXPECT_GE(back.params.size(), 100u);
   EXPECT_TRUE(is_run_of(back.params, whole.params));
-  ::ros::param::del("/use_sim_time");
+  EXPECT_FALSE(::ros::param::has("/use_sim_time")) << "left behind when the bag ended";
+}
+
+TEST_F(Recording, PlayedBackAndInterruptedLeavesNoSimulatedTimeBehind) {
+  const std::string bag = directory / "take.bag";
+  ASSERT_TRUE(trk_bag(data_path("field/takes/euler.trk"), bag, {"--camera", camera}));
+  Recorder<rosgraph_msgs::Clock> clock("/clock");
+  Roslaunch playback("playback.launch", {"file:=" + bag, "camera:=" + camera, "loop:=true"});
+  ASSERT_TRUE(eventually([&] { return clock.messages.size() > 100; }));
+  EXPECT_TRUE(::ros::param::has("/use_sim_time"));
+  playback.end();
+  EXPECT_FALSE(::ros::param::has("/use_sim_time"));
 }
 
 }  // namespace
