@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Runs every command of README.md and of the pages in doc/, as pages.py says that they are marked.
 
-What follows a command on its page finds what that has left: files, and what runs in the background until its section
-ends. Each page has a folder of its own, which is its home, too; each section has the address of a ROS master of its own,
-where nobody listens yet. stand_ins.py has what is changed in the commands. Windows open on a display that nobody sees.
+A page is one session from top to bottom: what follows a command finds what that has left, files, parameters and what
+runs in the background until the text says Ctrl-C. Each page has a folder of its own, which is its home, too, and the
+address of a ROS master of its own, where nobody listens yet. stand_ins.py has what is changed in the commands. Windows open on a display that nobody sees.
 """
 
 import argparse
@@ -87,33 +87,20 @@ class PageRun:
     def __init__(self, root, build, environment, folder, logs, table):
         self._root = root
         self._build = build
-        self._environment = environment
         self._folder = folder
-        self._logs = logs
         self._table = table
-        self._terminals = None
-        self._section = None
-
-    def _enter(self, block):
-        if block.section == self._section:
-            return
-        self.leave()
         own = {
-            "HOME": str(self._folder),
-            "ROS_HOME": str(self._folder / ".ros"),
+            "HOME": str(folder),
+            "ROS_HOME": str(folder / ".ros"),
             "ROS_MASTER_URI": f"http://127.0.0.1:{stand_ins.free_port()}",
         }
-        self._terminals = session.Terminals({**self._environment, **own}, self._folder, self._logs)
-        self._section = block.section
-
-    def leave(self):
-        """Ends what runs in the background."""
-        terminals, self._terminals, self._section = self._terminals, None, None
-        if terminals:
-            terminals.close()
+        self.terminals = session.Terminals({**environment, **own}, folder, logs)
 
     def run(self, block):
         if block.mark is None:
+            return
+        if block.mark.kind == "Ctrl-C":
+            self.terminals.end_all()
             return
         for command in block.commands() if block.is_command() else []:
             unknown = pages.unknown_arguments(command, self._root / "launch")
@@ -123,16 +110,15 @@ class PageRun:
         if block.mark.kind == "file":
             (self._folder / block.mark.text).write_text(text)
             return
-        self._enter(block)
         if re.search(r"\./scripts/|cmake .*build", block.text) and block.mark.kind in ("run", "background"):
             if not is_scripts_build(self._root, self._build):
                 raise Skipped("it would build into a workspace's build folder")
         if block.mark.kind == "run":
-            self._terminals.run(text, stand_ins.replace_all(block.mark.prints, self._table), block.mark.fails)
+            self.terminals.run(text, stand_ins.replace_all(block.mark.prints, self._table), block.mark.fails)
         elif block.mark.kind == "background":
-            self._terminals.run_in_background(text, stand_ins.replace_all(block.mark.text, self._table))
+            self.terminals.run_in_background(text, stand_ins.replace_all(block.mark.text, self._table))
         elif block.mark.kind == "needs hardware":
-            self._terminals.check_syntax(block.text)
+            self.terminals.check_syntax(block.text)
         else:
             lacking = pages.has_commands(script_text(self._root / block.mark.text), block.commands())
             if lacking:
@@ -187,23 +173,28 @@ def run_page(options, path, environment, report):
         logs.mkdir()
         table = stand_ins.stand_ins(options.root, options.build, slot.number)
         page = PageRun(options.root, options.build, environment, home, logs, table)
-        broken = None  # a section whose blocks have nothing to stand on
-        for block, following in zip(blocks, blocks[1:] + [None]):
+        broken = False  # what follows has nothing to stand on
+        for block in blocks:
             begin, error = time.monotonic(), None
             try:
-                if block.section == broken:
-                    raise session.CommandError("not run: one before it in its section has failed")
+                if block.mark is not None and block.mark.kind == "Ctrl-C":
+                    broken = False
+                if broken:
+                    raise session.CommandError("not run: one before it has failed")
                 page.run(block)
-                if following is None or following.section != block.section:
-                    page.leave()
             except Skipped as reason:
                 error = reason
             except session.CommandError as failure:
-                error, broken = failure, block.section
+                error, broken = failure, True
                 with contextlib.suppress(session.CommandError):
-                    page.leave()
+                    page.terminals.end_all()
             if block.is_command() or error:
                 report.add(name, block, time.monotonic() - begin, error)
+        running = page.terminals.running()
+        if running and not options.section:
+            report.add(name, None, 0, "its text does not end what runs: " + "; ".join(running))
+        with contextlib.suppress(session.CommandError):
+            page.terminals.end_all()
 
 
 def main():

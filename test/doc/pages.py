@@ -5,11 +5,16 @@ A page shows commands in fences that say `sh`, and marks each with a comment rig
     <!-- run -->                          all lines, as one shell runs them, end with exit code 0
     <!-- run: prints TEXT -->             and print TEXT
     <!-- run: fails, prints TEXT -->      end with another exit code, and print TEXT
-    <!-- run: background -->              one command that lives until its section ends, where Ctrl-C ends it with
-                                          exit code 0
+    <!-- run: background -->              one command in a terminal of its own, which lives until the text says Ctrl-C,
+                                          and then ends with exit code 0
     <!-- run: background until TEXT -->   the same; what follows waits for TEXT
     <!-- run by: FILE -->                 FILE, a script of the repository, has these commands
     <!-- needs hardware: WHY -->          nobody runs it; its syntax is checked
+
+A mark before a paragraph that says Ctrl-C is where a reader ends all that runs; nothing else ends it:
+
+    <!-- Ctrl-C -->                       here
+    <!-- Ctrl-C: after each section -->   where each section ends, from here to the next heading of this one's level
 
 Any other fence says its language, too, and `<!-- file: NAME -->` before it makes it a file for the commands after it.
 """
@@ -21,7 +26,7 @@ import xml.etree.ElementTree
 COMMAND_LANGUAGES = ("sh", "bash", "shell", "console")
 
 _FENCE = re.compile(r"^(?P<indent> *)(?P<ticks>`{3,}|~{3,})[ \t]*(?P<language>[^\s`]*)[^`]*$")
-_MARK = re.compile(r"^\s*<!--\s*(?P<verb>run by|run|needs hardware|file)\b\s*(?::\s*(?P<text>.*?))?\s*-->\s*$")
+_MARK = re.compile(r"^\s*<!--\s*(?P<verb>run by|run|needs hardware|file|Ctrl-C)\b\s*(?::\s*(?P<text>.*?))?\s*-->\s*$")
 _RUN = re.compile(
     r"^(?:(?P<background>background)(?: until (?P<until>.+))?|(?:(?P<fails>fails), )?prints (?P<prints>.+))$")
 _LIST_ITEM = re.compile(r"^ {0,3}(?:[-*+]|\d+[.)])\s")
@@ -36,7 +41,8 @@ class PageError(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Mark:
-    """How the block after it is run: `kind` is run, background, run by, needs hardware or file."""
+    """How the block after it is run: `kind` is run, background, run by, needs hardware or file. Ctrl-C is a block without
+    text."""
 
     kind: str
     text: str = ""  # until, FILE, WHY or NAME
@@ -68,6 +74,10 @@ def parse_mark(line, number):
     if not match:
         return None
     verb, text = match["verb"], match["text"]
+    if verb == "Ctrl-C":
+        if text not in (None, "after each section"):
+            raise PageError(number, f"'Ctrl-C: {text}' is neither here nor after each section")
+        return Mark(verb, text or "")
     if verb != "run":
         if not text:
             raise PageError(number, f"'{verb}' does not say what")
@@ -102,7 +112,8 @@ class _Reader:
     def __init__(self, lines):
         self._lines = lines
         self._at = 0
-        self._section, self._heading = 0, ""
+        self._section, self._heading, self._level = 0, "", 0
+        self._each_below = None  # the level of the heading below which every section ends with Ctrl-C
         self._mark = self._mark_line = None
         self._in_list = False
         self.blocks = []
@@ -116,6 +127,30 @@ class _Reader:
                 self._read_text(self._lines[self._at])
                 self._at += 1
         self._end_mark()
+        self._end_section(0)
+
+    def _end_section(self, next_level):
+        if self._each_below is None:
+            return
+        self._add_end(self._at)
+        if next_level <= self._each_below:
+            self._each_below = None
+
+    def _add_end(self, line):
+        self.blocks.append(Block(line, self._section, self._heading, "", "", Mark("Ctrl-C")))
+
+    def _read_end(self, mark):
+        paragraph = []
+        for line in self._lines[self._at + 1:]:
+            if (not line.strip() and paragraph) or _FENCE.match(line) or _MARK.match(line):
+                break
+            paragraph.append(line.strip())
+        if "Ctrl-C" not in " ".join(paragraph):
+            raise PageError(self._at + 1, "the paragraph after this mark does not say Ctrl-C")
+        if mark.text:
+            self._each_below = self._level
+        else:
+            self._add_end(self._at + 1)
 
     def _end_mark(self):
         if self._mark is not None:
@@ -143,6 +178,9 @@ class _Reader:
             return
         self._end_mark()
         mark = parse_mark(line, self._at + 1)
+        if mark is not None and mark.kind == "Ctrl-C":
+            self._read_end(mark)
+            return
         if mark is not None:
             self._mark, self._mark_line = mark, self._at + 1
             return
@@ -156,12 +194,14 @@ class _Reader:
         if indent == 0:
             self._in_list = False
         if line.startswith("#"):
+            self._level = len(line) - len(line.lstrip("#"))
+            self._end_section(self._level)
             self._section += 1
             self._heading = line.lstrip("#").strip()
 
 
 def blocks_of(text):
-    """All fences of a page's text, in order. Raises PageError."""
+    """All fences of a page's text, and where Ctrl-C ends what runs, in order. Raises PageError."""
     reader = _Reader(text.splitlines())
     reader.read()
     return reader.blocks

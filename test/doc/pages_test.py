@@ -88,6 +88,33 @@ class Blocks(unittest.TestCase):
             blocks_of(page("<!-- run: background -->", "```sh", "a", "b", "```"))
 
 
+class Ends(unittest.TestCase):
+    RUN = ["<!-- run: background -->", "```sh", "a", "```"]
+
+    def kinds(self, *lines):
+        return [(block.mark.kind, block.heading) for block in blocks_of(page(*lines))]
+
+    def test_where_the_text_says_it(self):
+        self.assertEqual(self.kinds("# A", *self.RUN, "<!-- Ctrl-C -->", "Now press", "Ctrl-C there.", *self.RUN),
+                         [("background", "A"), ("Ctrl-C", "A"), ("background", "A")])
+
+    def test_after_each_section(self):
+        lines = ["## A", *self.RUN, "## B", "<!-- Ctrl-C: after each section -->", "Ctrl-C ends each.", "### C",
+                 *self.RUN, "#### D", *self.RUN, "## E", *self.RUN]
+        self.assertEqual(self.kinds(*lines),
+                         [("background", "A"), ("Ctrl-C", "B"), ("background", "C"), ("Ctrl-C", "C"),
+                          ("background", "D"), ("Ctrl-C", "D"), ("background", "E")])
+        self.assertEqual(self.kinds(*lines[:-len(self.RUN) - 1])[-1], ("Ctrl-C", "D"))
+
+    def test_where_the_text_does_not_say_it(self):
+        for mark in ("<!-- Ctrl-C -->", "<!-- Ctrl-C: after each section -->"):
+            for after in (["Words."], ["Words.", "", "Ctrl-C"], [*self.RUN, "Ctrl-C"]):
+                with self.subTest(mark), self.assertRaisesRegex(PageError, "line 2: the paragraph .* Ctrl-C"):
+                    blocks_of(page("# A", mark, *after))
+        with self.assertRaisesRegex(PageError, "neither here nor"):
+            blocks_of(page("<!-- Ctrl-C: later -->", "Ctrl-C"))
+
+
 class LaunchArguments(unittest.TestCase):
     def unknown(self, command):
         with tempfile.TemporaryDirectory() as folder:

@@ -87,7 +87,7 @@ class Command:
 
 
 class Terminals:
-    """The terminals of one section of a page: what runs in the background, and an environment for all of it."""
+    """The terminals of a reader of one page: what runs in the background, and an environment for all of it."""
 
     PATIENCE = 60  # s, for a command to end or to print what it is waited for
     LEAVING = 10  # s, for what commands have started to end with them
@@ -123,8 +123,12 @@ class Terminals:
     def check_syntax(self, text):
         self.run("bash -n -c " + shlex.quote(text))
 
-    def close(self):
-        """Ctrl-C in each, the last first. Nothing may be left of what was started."""
+    def running(self):
+        """What runs in the background, in the order in which it was started."""
+        return [command.text.strip() for command in self._background]
+
+    def end_all(self):
+        """Ctrl-C in each terminal, the last first. Nothing may be left of what was started."""
         try:
             while self._background:
                 self._background.pop().interrupt(30)
@@ -132,14 +136,14 @@ class Terminals:
                 return
             raise CommandError("left behind: " + ", ".join(self._left().values()))
         finally:
-            for command in self._background:
-                command.kill()
+            while self._background:
+                self._background.pop().kill()
             for pid in self._left():
                 with contextlib.suppress(ProcessLookupError):
                     os.kill(pid, signal.SIGKILL)
 
     def _left(self):
-        """Command lines of the processes that the section has started and that live, by pid."""
+        """Command lines of the processes that its commands have started and that live, by pid."""
         wanted = f"{LEFT_BY}={self._mark}".encode()
         found = {}
         for process in pathlib.Path("/proc").glob("[0-9]*"):

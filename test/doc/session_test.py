@@ -39,25 +39,33 @@ class Sessions(unittest.TestCase):
     def test_background_lives_until_ctrl_c(self):
         self.terminals.run_in_background("trap 'touch ended; exit 0' INT; echo up; while :; do sleep 0.05; done", "up")
         self.assertFalse((self.folder / "ended").exists())
-        self.terminals.close()
+        self.terminals.end_all()
         self.assertTrue((self.folder / "ended").exists())
+
+    def test_background_goes_on_while_others_run_and_is_known(self):
+        self.terminals.run_in_background("echo up; exec sleep 1000", "up")
+        self.terminals.run("true")
+        self.assertEqual(self.terminals.running(), ["echo up; exec sleep 1000"])
+        with self.refused("ended with -2 after Ctrl-C"):
+            self.terminals.end_all()
+        self.assertEqual(self.terminals.running(), [])
 
     def test_background_that_ends_is_refused(self):
         with self.refused("has ended with 0 before it printed 'up'"):
             self.terminals.run_in_background("true", "up")
         with self.refused("has ended by itself with 0"):
-            self.terminals.close()
+            self.terminals.end_all()
 
     def test_background_that_ends_badly_is_refused(self):
         self.terminals.run_in_background("trap 'exit 4' INT; echo up; while :; do sleep 0.05; done", "up")
         with self.refused("ended with 4 after Ctrl-C"):
-            self.terminals.close()
+            self.terminals.end_all()
 
     def test_nothing_is_left_behind(self):
         self.terminals.LEAVING = 0.2
         self.terminals.run("setsid sleep 1000 >/dev/null 2>&1 & echo $! >pid")
         with self.refused("left behind: sleep 1000"):
-            self.terminals.close()
+            self.terminals.end_all()
         command_line = pathlib.Path("/proc", (self.folder / "pid").read_text().strip(), "cmdline")
         # Gone, or waiting for its parent to ask for its exit code.
         self.assertTrue(wait_for(lambda: not command_line.exists() or not command_line.read_bytes(), 5))

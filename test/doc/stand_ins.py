@@ -73,7 +73,6 @@ class FreeSlot:
 
 def stand_ins(root, build, slot):
     """The table for one page. Every fixed port has the same stand-in all over the page."""
-    take = root / "test/data/field/takes/euler.trk"
     build = shlex.quote(str(build))
     ports = [StandIn(rf"\b{port}\b", str(free_port()), "ports that others may use here") for port in range(7000, 7004)]
     return ports + [
@@ -82,14 +81,13 @@ def stand_ins(root, build, slot):
         StandIn(r"\b239(?:\.\d+){3}\b", "127.0.0.1", "multicast would leave the machine"),
         StandIn(r"\bshm:7\b", f"shm:{slot}", "a slot that others may use on this machine"),
         StandIn(r"\b(read_mem|write_mem) 7\b", rf"\1 {slot}", "the same"),
-        StandIn(r"/takes/take1\.trk\b", str(take), "a take of the reader's"),
         StandIn(r"/path/to/trk_bridge\b", shlex.quote(str(root)), "where the reader has the repository"),
         StandIn(r"(?<![\w/.])\./scripts/", shlex.quote(str(root)) + "/scripts/", "commands run in an empty folder"),
         StandIn(r"(?<![\w/.])test/(?=data/|rviz/)", shlex.quote(str(root)) + "/test/", "the same"),
         StandIn(r"(?<![\w/.])build/(?=devel/|doc/)", f"{build}/", "the build that the tests are of"),
         StandIn(r"(?<=--install )build\b", build, "the same"),
         StandIn(r"(?<=--build )build\b", build, "the same"),
-        StandIn(r"(?m)^roscore$", 'roscore -p "${ROS_MASTER_URI##*:}"', "a section's own master; roscore does not look"),
+        StandIn(r"(?m)^roscore$", 'roscore -p "${ROS_MASTER_URI##*:}"', "the page's own master; roscore does not look"),
         # That catkin finds, configures and builds the package in a workspace is what differs from other builds.
         StandIn(r"(?m)^catkin_make$", "catkin_make trk_bridge_wire", "the whole build takes minutes"),
     ]
