@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t most_off = 1'000'000'000;  // ns
 
 /// tf2 takes frames with a leading slash for the same.
-std::string without_slash(const std::string& frame) { return frame.rfind('/', 0) == 0 ? frame.substr(1) : frame; }
+std::string_view without_slash(std::string_view frame) { return frame.substr(frame.substr(0, 1) == "/" ? 1 : 0); }
 
 }  // namespace
 
@@ -26,8 +26,12 @@ std::string describe(const StampJump& jump) {
 TransformGate::TransformGate(std::string studio_frame, std::string camera_frame)
     : studio_frame_(std::move(studio_frame)), camera_frame_(std::move(camera_frame)) {}
 
-void TransformGate::add_static(const std::string& parent, const std::string& child) {
-  links_[without_slash(child)].parent = without_slash(parent);
+TransformGate::Link& TransformGate::link_of(std::string_view parent, std::string_view child) {
+  child = without_slash(child);
+  auto found = links_.find(child);
+  if (found == links_.end()) found = links_.emplace(child, Link{}).first;
+  found->second.parent = without_slash(parent);
+  return found->second;
 }
 
 bool TransformGate::ros_time_went_back(std::int64_t ros_now) {
@@ -39,14 +43,12 @@ bool TransformGate::ros_time_went_back(std::int64_t ros_now) {
 }
 
 TransformGate::Verdict TransformGate::judge(const StampedLink& given, std::int64_t ros_now, std::int64_t now) {
-  const std::string child = without_slash(given.child);
-  auto& link = links_[child];
-  link.parent = without_slash(given.parent);
+  auto& link = link_of(given.parent, given.child);
   const auto jump = jump_of(link, given, ros_now, now);
   if (jump) {
     if (!link.refused_since) link.refused_since = now;
     // What happens to others is not this camera's concern.
-    if (!pose_depends_on(child)) return Verdict::refuse;
+    if (!pose_depends_on(link)) return Verdict::refuse;
     if (now - *link.refused_since < patience) {
       ++statistics_.refused;
       statistics_.last_refused = *jump;
@@ -67,22 +69,24 @@ std::optional<StampJump> TransformGate::jump_of(const Link& link, const StampedL
                                                 std::int64_t now) const {
   const std::int64_t expected = link.newest ? *link.newest + (now - link.newest_at) : ros_now + ahead_;
   if (given.stamp > std::max(ros_now, expected) + most_off) {
-    return StampJump{StampJump::Kind::ahead, given.child, given.sender, seconds_between(ros_now, given.stamp)};
+    return StampJump{StampJump::Kind::ahead, std::string(given.child), std::string(given.sender),
+                     seconds_between(ros_now, given.stamp)};
   }
   if (link.newest && given.stamp < *link.newest - most_off) {
-    return StampJump{StampJump::Kind::back, given.child, given.sender, seconds_between(given.stamp, expected)};
+    return StampJump{StampJump::Kind::back, std::string(given.child), std::string(given.sender),
+                     seconds_between(given.stamp, expected)};
   }
   return std::nullopt;
 }
 
-bool TransformGate::pose_depends_on(const std::string& child) const {
+bool TransformGate::pose_depends_on(const Link& link) const {
   for (const auto& end : {camera_frame_, studio_frame_}) {
     const std::string* frame = &end;
     // Wrong transforms can make a circle.
     for (std::size_t steps = 0; steps <= links_.size(); ++steps) {
-      if (*frame == child) return true;
       const auto found = links_.find(*frame);
       if (found == links_.end()) break;
+      if (&found->second == &link) return true;
       frame = &found->second.parent;
     }
   }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace trk_bridge::bridge {
 
@@ -30,11 +32,11 @@ struct TransformGateStatistics {
   StampJump last_restart;
 };
 
-/// One transform of tf. Stamp in ns since 1970.
+/// One transform of tf. Stamp in ns since 1970. Texts are the caller's.
 struct StampedLink {
-  std::string parent, child;
+  std::string_view parent, child;
   std::int64_t stamp = 0;
-  std::string sender;
+  std::string_view sender;
 };
 
 /// Judges every transform before it gets into a tf buffer. A buffer holds the newest 10 s: one transform that lies far
@@ -56,11 +58,11 @@ class TransformGate {
   TransformGate(std::string studio_frame, std::string camera_frame);
 
   /// A link that no stamp belongs to.
-  void add_static(const std::string& parent, const std::string& child);
+  void add_static(std::string_view parent, std::string_view child) { link_of(parent, child); }
   /// Whether ROS time, `ros_now`, has gone back by more than 1 s since the last call: then the buffer has to start
   /// over. To be asked before judge().
   bool ros_time_went_back(std::int64_t ros_now);
-  /// `ros_now` is ROS time, `now` the steady clock, both ns.
+  /// `ros_now` is ROS time, `now` the steady clock, both ns. Allocates only for links that are new, and for jumps.
   Verdict judge(const StampedLink&, std::int64_t ros_now, std::int64_t now);
 
   const TransformGateStatistics& statistics() const noexcept { return statistics_; }
@@ -73,13 +75,14 @@ class TransformGate {
     std::optional<std::int64_t> refused_since;  // steady clock, of those that came since the last sound one
   };
 
+  Link& link_of(std::string_view parent, std::string_view child);
   std::optional<StampJump> jump_of(const Link&, const StampedLink&, std::int64_t ros_now, std::int64_t now) const;
-  bool pose_depends_on(const std::string& child) const;
+  bool pose_depends_on(const Link&) const;
   void start_over(const StampJump&);
 
   const std::string studio_frame_, camera_frame_;
-  std::map<std::string, Link> links_;  // by their child
-  std::int64_t ahead_ = 0;             // ns, of the clock that was followed, over ROS time
+  std::map<std::string, Link, std::less<>> links_;  // by their child
+  std::int64_t ahead_ = 0;                          // ns, of the clock that was followed, over ROS time
   std::int64_t last_ros_now_ = 0;
   TransformGateStatistics statistics_;
 };

@@ -71,8 +71,10 @@ TEST_F(Startup, AnIdOf32BitsCanBeGivenToRosrunAndAsText) {
   EXPECT_TRUE(reports_on(camera));
   given.signal(SIGINT);
   EXPECT_THAT(given.rest_of_err(), Not(HasSubstr("cannot start")));
+  EXPECT_EQ(given.wait(), 0);
   set("id", "4294967295");
-  EXPECT_TRUE(starts());
+  ASSERT_TRUE(starts());
+  interrupted();
 }
 
 TEST_F(Startup, AnUnknownArgumentIsRefused) {

@@ -1,0 +1,59 @@
+#include "bridge/ros_report.h"
+
+#include <gmock/gmock.h>
+
+namespace trk_bridge::bridge {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr std::int64_t second = 1'000'000'000;
+
+class RosDiagnostics : public ::testing::Test {
+ protected:
+  RosDiagnostics() {
+    now.master = MasterState::knows_node;
+    now.master_uri = "http://studio:11311";
+    now.ros_time = now.ros_time_moved = now.time = 100 * second;
+    now.answered = 98 * second;
+  }
+  Status status() const {
+    Status status;
+    fill(status, findings(now, {}), now, {});
+    return status;
+  }
+  void expect(Level level, const std::string& text) const {
+    EXPECT_EQ(status().level, level);
+    EXPECT_THAT(status().message, HasSubstr(text));
+  }
+
+  RosReport now;
+};
+
+TEST_F(RosDiagnostics, AllIsWell) {
+  expect(Level::ok, "the master knows this node; ROS time is the system's clock");
+  now.is_simulated = true;
+  expect(Level::ok, "the master knows this node; ROS time is /clock");
+}
+
+TEST_F(RosDiagnostics, AMasterThatIsAwayOrNew) {
+  now.master = MasterState::silent;
+  expect(Level::warn, "the master at http://studio:11311 does not answer");
+  now.master = MasterState::forgot;
+  expect(Level::warn, "the master does not know this node any more");
+}
+
+TEST_F(RosDiagnostics, SimulatedTimeThatStands) {
+  now.ros_time_moved = now.time - 3 * second;
+  expect(Level::ok, "the system's clock");
+  now.is_simulated = true;
+  expect(Level::warn, "/clock stands or is silent for 3.0 s");
+  now.ros_time = 0;
+  expect(Level::warn, "nothing comes on /clock");
+  expect(Level::warn, "rosparam delete /use_sim_time");
+  now.ros_time_moved = now.time - second;
+  expect(Level::ok, "ROS time is /clock");
+}
+
+}  // namespace
+}  // namespace trk_bridge::bridge
