@@ -45,6 +45,7 @@ Ending listen(transport::Source& source, Listener& listener, std::optional<doubl
 
 ExitCode report_end(const Tally& tally, const transport::SourceStatistics& source, Ending ending, std::ostream& err) {
   tally.summarise(source, err);
+  if (!source.waiting_for.empty()) err << "trk: waited for " << source.waiting_for << '\n';
   if (ending != Ending::failed) return exit_good;
   err << "trk: error: " << source.error << '\n';
   return exit_failed;

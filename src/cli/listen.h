@@ -31,7 +31,8 @@ enum class Ending : std::uint8_t {
 /// Until the source ends, is stopped or fails, the listener has enough, or `seconds` (wall time) have passed.
 Ending listen(transport::Source&, Listener&, std::optional<double> seconds = std::nullopt);
 
-/// The end of a program that has listened: the summary on `err`, and then the source's error where it failed.
+/// The end of a program that has listened: the summary on `err`, and then what the source waited for, or its error
+/// where it failed.
 ExitCode report_end(const Tally&, const transport::SourceStatistics&, Ending, std::ostream& err);
 
 }  // namespace trk_bridge::cli

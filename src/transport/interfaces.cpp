@@ -66,7 +66,7 @@ bool same_address(const SocketAddress& a, const SocketAddress& b) noexcept {
 
 std::optional<Interface> find_in(const std::vector<InterfaceAddress>& known, const std::string& named) {
   const std::optional<SocketAddress> address = numeric_address(named);
-  const unsigned number = whole_number(named, 1, 0x7fffffff).value_or(0);
+  const unsigned number = whole_number(named, 1U, 0x7fffffffU).value_or(0U);
   const unsigned index = ::if_nametoindex(named.c_str());
   const auto found = std::find_if(known.begin(), known.end(), [&](const InterfaceAddress& entry) {
     if (index != 0) return entry.index == index;

@@ -185,7 +185,7 @@ void ReceiveSocket::follow_interfaces(const InterfaceWatch::Removed& removed) {
     }
   };
   stop_listening([&removed](unsigned index) { return removed.has(index); });
-  if (!watch_) return;
+  if (!is_group_ && !needs_zone(address_)) return;
   std::vector<unsigned> wanted;
   if (interface_.empty()) {
     wanted = multicast_interfaces(address_.family());

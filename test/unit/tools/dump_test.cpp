@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "memory_feed.h"
+#include "trk_bridge/endpoints/endpoints.h"
 #include "udp.h"
 
 namespace trk_bridge::tools {
@@ -67,6 +68,13 @@ TEST_F(DumpTest, EndsAfterItsTimeAlthoughNothingComes) {
   EXPECT_EQ(run(options), cli::exit_good);
   EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(50));
   EXPECT_THAT(err.str(), HasSubstr("received 0"));
+}
+
+TEST_F(DumpTest, WhatItWaitedForIsSaidAtTheEnd) {
+  DumpOptions options;
+  options.seconds = 0.01;
+  (void)dump(*endpoints::open_source("udp://239.255.77.1:0?interface=nosuch0"), options, out, err);
+  EXPECT_THAT(err.str(), HasSubstr(": no interface has the address or name nosuch0; there are "));
 }
 
 TEST_F(DumpTest, AFailedSourceIsAFailure) {
