@@ -1,4 +1,6 @@
+#include <cerrno>
 #include <map>
+#include <memory>
 #include <ostream>
 #include <system_error>
 
@@ -121,14 +123,24 @@ class Schedule {
 class Recording {
  public:
   Recording(const std::string& path, const TakeToBagOptions& options, std::optional<std::int64_t> zero)
-      : caller_("/" + options.camera + "/trk_to_ros") {
+      : Recording("/" + options.camera + "/trk_to_ros") {
     extra_[field_rate_key] = cli::number_text(options.field_rate);
     if (zero) extra_[time_code_zero_key] = std::to_string(*zero);
-    bag_.open(path, rosbag::bagmode::Write);
-    bag_.setCompression(options.compression == "bz2"   ? rosbag::compression::BZ2
-                        : options.compression == "lz4" ? rosbag::compression::LZ4
-                                                       : rosbag::compression::Uncompressed);
+    with_reason([&] { bag_->open(path, rosbag::bagmode::Write); });
+    bag_->setCompression(options.compression == "bz2"   ? rosbag::compression::BZ2
+                         : options.compression == "lz4" ? rosbag::compression::LZ4
+                                                        : rosbag::compression::Uncompressed);
   }
+  /// A bag whose end cannot be written would throw in its destructor: that one stays in memory.
+  ~Recording() {
+    try {
+      bag_->close();
+    } catch (const rosbag::BagException&) {
+      static_cast<void>(bag_.release());
+    }
+  }
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
 
   template <typename Message>
   void write(const std::string& topic, ::ros::Time stamp, const Message& message, bool is_latched = false) {
@@ -142,7 +154,7 @@ class Recording {
       (*header)["topic"] = topic;
       (*header)["type"] = ::ros::message_traits::datatype(message);
     }
-    bag_.write(topic, stamp, message, header);
+    with_reason([&] { bag_->write(topic, stamp, message, header); });
   }
 
   void write(const std::string& topic, const geometry_msgs::TransformStamped& transform, bool is_latched = false) {
@@ -151,13 +163,29 @@ class Recording {
     write(topic, transform.header.stamp, message, is_latched);
   }
 
-  void close() { bag_.close(); }
+  void close() {
+    with_reason([&] { bag_->close(); });
+  }
 
  private:
+  explicit Recording(std::string caller) : caller_(std::move(caller)), bag_(std::make_unique<rosbag::Bag>()) {}
+
+  /// rosbag says how many bytes were not written, the system why.
+  template <typename Action>
+  static void with_reason(const Action& action) {
+    errno = 0;
+    try {
+      action();
+    } catch (const rosbag::BagIOException& error) {
+      if (errno == 0) throw;
+      throw rosbag::BagIOException(std::generic_category().message(errno));
+    }
+  }
+
   const std::string caller_;
   ::ros::M_string extra_;
   std::map<std::string, boost::shared_ptr<::ros::M_string>> headers_;
-  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::Bag> bag_;
 };
 
 void report(const bridge::CameraStatistics& statistics, std::ostream& err) {
@@ -198,6 +226,10 @@ void record(const file::Take& take, const Schedule& schedule, TakeCamera& camera
 
 }  // namespace
 
+void check_written(const std::string& path, const transport::Written& written) {
+  if (!written) throw transport::TransportError(path + ": cannot be written: " + describe(written.error()));
+}
+
 void bag_of_take(const std::string& take_path, const std::string& bag_path, const TakeToBagOptions& options,
                  cli::LongRun& run, std::ostream& err) {
   const file::Take take = file::read_take(take_path);
@@ -205,7 +237,9 @@ void bag_of_take(const std::string& take_path, const std::string& bag_path, cons
   try {
     TakeCamera camera(options);
     const Schedule schedule(take.time_code, options);
-    file::PartFile file(bag_path, options.overwrite);
+    auto opened = file::PartFile::open(bag_path, {options.overwrite});
+    if (!opened) check_written(bag_path, tl::unexpected(opened.error()));
+    auto& file = *opened;
     run.begin("writing " + bag_path);
     try {
       Recording recording(file.part(), options, schedule.zero());
@@ -217,8 +251,8 @@ void bag_of_take(const std::string& take_path, const std::string& bag_path, cons
     }
     run.end();
     if (const auto published = file.publish(); !published) {
-      throw transport::TransportError(bag_path +
-                                      ": cannot be written: " + std::system_category().message(published.error()));
+      check_written(bag_path,
+                    tl::unexpected(transport::SinkFault{transport::SinkReason::system, {}, published.error()}));
     }
     report(camera.statistics(), err);
     err << "trk: " << bag_path << ": " << camera.statistics().sequence.accepted << " fields of camera "

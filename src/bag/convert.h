@@ -8,6 +8,7 @@
 
 #include "cameras.h"
 #include "cli/long_run.h"
+#include "trk_bridge/transport/sink.h"
 
 namespace trk_bridge::bag {
 
@@ -49,5 +50,8 @@ void bag_of_take(const std::string& take, const std::string& bag, const TakeToBa
 /// Makes a take of a recording, whole or cut short. What is missing is reported on `err`. Throws as the above.
 void take_of_bag(const std::string& bag, const std::string& take, const BagToTakeOptions&, cli::LongRun&,
                  std::ostream& err);
+
+/// Throws transport::TransportError "PATH: cannot be written: reason" unless it was.
+void check_written(const std::string& path, const transport::Written&);
 
 }  // namespace trk_bridge::bag

@@ -10,27 +10,22 @@
 namespace trk_bridge::bag {
 namespace {
 
-void check(const tl::expected<void, transport::SinkFault>& written, const file::TakeWriter& writer) {
-  if (written) return;
-  throw transport::TransportError(writer.path() + ": cannot be written: " + transport::describe(written.error()));
-}
-
 void write(const Fields& fields, const base::TimeCode& code, const std::string& path, bool overwrite,
            cli::LongRun& run) {
   file::TakeWriter writer(path, code, overwrite);
   run.begin("writing " + path);
   try {
-    check(writer.write(fields.constants), writer);
+    check_written(path, writer.write(fields.constants));
     double done = 0;
     for (const auto& params : fields.params) {
       run.at(done++ / static_cast<double>(fields.params.size()));
-      check(writer.write(params), writer);
+      check_written(path, writer.write(params));
     }
   } catch (...) {
     writer.discard();
     throw;
   }
-  check(writer.close(), writer);
+  check_written(path, writer.close());
   run.end();
 }
 
@@ -38,7 +33,7 @@ void write(const Fields& fields, const base::TimeCode& code, const std::string& 
 
 void take_of_bag(const std::string& bag_path, const std::string& take_path, const BagToTakeOptions& options,
                  cli::LongRun& run, std::ostream& err) {
-  file::PartFile::check_target(take_path, options.overwrite);
+  check_written(take_path, file::PartFile::check(take_path, {options.overwrite, file::Fifo::allowed}));
   try {
     Reader bag(bag_path, run);
     const auto camera = choose_camera(bag.connections(), options.camera, options.input);

@@ -54,6 +54,8 @@ enum class Condition : std::uint8_t {
   tangential_lost,
   rows_disagree,
   bad_lens,
+  sink_hangs,
+  sink_notice,
   sink_fails,
   sink_loses,
   sink_too_slow,

@@ -92,6 +92,14 @@ std::optional<Finding> state(const SinkReport& now, const SinkReport& before) {
     return Finding{Condition::sink_too_slow, Level::error,
                    describe(OutletReason::too_slow) + "; " + std::to_string(now.queue->drops) + " records are missing"};
   }
+  if (const auto busy_since = now.state.busy_since; busy_since != 0 && seconds_between(busy_since, now.time) > 1) {
+    return Finding{Condition::sink_hangs, Level::error,
+                   "nothing goes out: no answer for " + duration_text(seconds_between(busy_since, now.time)) +
+                       (now.queue ? "; " + std::to_string(now.queue->queued) + " records wait" : std::string())};
+  }
+  if (!now.state.cannot_open.empty()) {
+    return Finding{Condition::sink_fails, Level::error, "nothing goes out: " + now.state.cannot_open};
+  }
   if (sink.fails && sink.last_success < before.time) {
     return Finding{Condition::sink_fails, Level::error, "nothing goes out: " + describe(sink.last_fault)};
   }
@@ -103,12 +111,13 @@ std::optional<Finding> state(const SinkReport& now, const SinkReport& before) {
     return sending(rate_between(before.sink.sent.params, sink.sent.params, before.time, now.time));
   }
   if (sink.dropped > before.sink.dropped || sink.withheld > before.sink.withheld) return std::nullopt;
-  if (sink.sent.params == 0) return Finding{Condition::waiting, Level::ok, "open, nothing written yet"};
-  return sending(0);
+  if (sink.sent.params > 0) return sending(0);
+  return Finding{Condition::waiting, Level::ok, now.state.is_open ? "open, nothing written yet" : "is being opened"};
 }
 
 void add_outlet_findings(std::vector<Finding>& found, const SinkReport& now, const SinkReport& before) {
   const auto& sink = now.sink;
+  if (!now.state.notice.empty()) found.push_back({Condition::sink_notice, Level::ok, now.state.notice});
   if (sink.dropped > before.sink.dropped) {
     warn(found, Condition::dropped, "not sent: " + camera::describe(sink.drop_reason));
   }
@@ -137,7 +146,7 @@ void add_input_values(Status& status, const Sets& sets, double rate, std::int64_
 }  // namespace
 
 SinkReport report_of(const Outlet& outlet, std::int64_t time) {
-  return {outlet.name(), outlet.form(), outlet.statistics(), outlet.queue(), time};
+  return {outlet.state(), outlet.form(), outlet.statistics(), outlet.queue(), time};
 }
 
 std::vector<Finding> findings(const ParamsReport& now, const ParamsReport& before) {
@@ -205,11 +214,11 @@ void fill(Status& status, const std::vector<Finding>& found, const TfReport& now
 }
 
 void fill(Status& status, const std::vector<Finding>& found, const SinkReport& now, const SinkReport& before) {
-  status.hardware_id = now.name;
+  status.hardware_id = now.state.name;
   summarize(found, status);
   const auto& sink = now.sink;
   const bool ever_failed = sink.failed_sets > 0;
-  status.add("sink", now.name);
+  status.add("sink", now.state.name);
   status.add("rate (Hz)", two_decimals(rate_between(before.sink.sent.params, sink.sent.params, before.time, now.time)));
   status.add("sent", sink.sent.params);
   status.add("constants sent", sink.sent.constants);

@@ -34,7 +34,7 @@ struct TfReport {
 
 /// One look at a sink.
 struct SinkReport {
-  std::string name;
+  OutletState state;
   transport::SinkForm form;
   OutletStatistics sink;
   std::optional<OutletQueueStatistics> queue;  ///< none: it is written at once

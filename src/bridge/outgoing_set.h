@@ -1,6 +1,7 @@
 // What an input of ros_to_trk gives to every outlet.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "trk_bridge/wire/record.h"
@@ -12,6 +13,7 @@ namespace trk_bridge::bridge {
 struct OutgoingSet {
   std::optional<wire::CameraConstants> constants;
   wire::CameraParams params;
+  std::int64_t time = 0;  ///< when they were true, ns since 1970 UTC; 0: unknown
 };
 
 }  // namespace trk_bridge::bridge

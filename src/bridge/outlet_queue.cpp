@@ -1,35 +1,46 @@
 #include "outlet_queue.h"
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 #include "outlet_writer.h"
 
 namespace trk_bridge::bridge {
+namespace {
 
-OutletQueue::OutletQueue(std::size_t capacity, WhenFull when_full) : when_full_(when_full), ring_(capacity) {
+/// How often who waits for room asks whether it may go on waiting.
+constexpr std::chrono::milliseconds ask_period{50};
+
+}  // namespace
+
+OutletQueue::OutletQueue(std::size_t capacity, WhenFull when_full, std::function<bool()> may_wait)
+    : when_full_(when_full), may_wait_(std::move(may_wait)), ring_(capacity) {
   if (when_full == WhenFull::drop_oldest) kept_constants_.reserve(OutletWriter::most_ids);
 }
 
-Pushed OutletQueue::push(const wire::Record& record) {
+Pushed OutletQueue::push(const wire::Record& record, std::int64_t time) {
   auto pushed = Pushed::queued;
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    if (when_full_ == WhenFull::wait) has_room_.wait(lock, [this] { return closed_ || count_ < ring_.size(); });
-    failed_ = failed_ || (when_full_ == WhenFull::fail && count_ == ring_.size());
+    const auto is_full = [this] { return count_ == ring_.size(); };
+    while (when_full_ == WhenFull::wait && !closed_ && is_full() && (!may_wait_ || may_wait_())) {
+      has_room_.wait_for(lock, ask_period);
+    }
+    failed_ = failed_ || (when_full_ != WhenFull::drop_oldest && !closed_ && is_full());
     if (closed_ || failed_) {
       ++drops_;
       return Pushed::refused;
     }
-    if (count_ == ring_.size()) pushed = make_room();
-    ring_[(front_ + count_++) % ring_.size()] = record;
+    if (is_full()) pushed = make_room();
+    ring_[(front_ + count_++) % ring_.size()] = {record, time};
   }
   has_record_.notify_one();
   return pushed;
 }
 
 Pushed OutletQueue::make_room() {
-  const auto oldest = take_front();
+  const auto oldest = take_front().record;
   if (const auto* constants = std::get_if<wire::CameraConstants>(&oldest)) {
     if (keep(*constants)) return Pushed::queued;
     ++drops_;
@@ -51,19 +62,29 @@ bool OutletQueue::keep(const wire::CameraConstants& constants) {
   return true;
 }
 
-wire::Record OutletQueue::take_front() {
-  const wire::Record record = ring_[front_];
+QueuedRecord OutletQueue::take_front() {
+  const QueuedRecord record = ring_[front_];
   front_ = (front_ + 1) % ring_.size();
   --count_;
   return record;
 }
 
-std::optional<wire::Record> OutletQueue::pop() {
+std::optional<QueuedRecord> OutletQueue::pop() {
   std::unique_lock<std::mutex> lock(mutex_);
   has_record_.wait(lock, [this] { return closed_ || size() > 0; });
+  return take(lock);
+}
+
+std::optional<QueuedRecord> OutletQueue::pop(std::chrono::nanoseconds wait) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  has_record_.wait_for(lock, wait, [this] { return closed_ || size() > 0; });
+  return take(lock);
+}
+
+std::optional<QueuedRecord> OutletQueue::take(std::unique_lock<std::mutex>& lock) {
   if (size() == 0) return std::nullopt;
   if (!kept_constants_.empty()) {
-    const wire::Record record = kept_constants_.front();
+    const QueuedRecord record{kept_constants_.front()};
     kept_constants_.erase(kept_constants_.begin());
     return record;
   }
@@ -80,6 +101,11 @@ void OutletQueue::close() {
   }
   has_record_.notify_all();
   has_room_.notify_all();
+}
+
+bool OutletQueue::is_over() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return closed_ && size() == 0;
 }
 
 OutletQueueStatistics OutletQueue::statistics() const {

@@ -1,9 +1,11 @@
 // Records on their way from the thread that has them to the one that writes them, bounded.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -16,7 +18,7 @@ namespace trk_bridge::bridge {
 enum class WhenFull : std::uint8_t {
   drop_oldest,  ///< the oldest parameters make room; of constants, the newest of every id stay
   fail,         ///< the queue ends: it takes no record any more, those that it has stay
-  wait,         ///< push() waits for room
+  wait,         ///< push() waits for room, for as long as may_wait() says
 };
 
 /// What became of a record that was pushed.
@@ -25,6 +27,12 @@ enum class Pushed : std::uint8_t {
   made_room,       ///< queued, and older parameters dropped for it
   lost_constants,  ///< queued, and older constants dropped for it: those of OutletWriter::most_ids ids are kept
   refused,         ///< the queue has failed or is closed
+};
+
+/// One that is on its way.
+struct QueuedRecord {
+  wire::Record record;
+  std::int64_t time = 0;  ///< when it was true, ns since 1970 UTC; 0: unknown
 };
 
 /// What a queue holds and has lost. Trivially copyable.
@@ -38,30 +46,37 @@ struct OutletQueueStatistics {
 /// record. Allocates when it is made, and never again.
 class OutletQueue {
  public:
-  /// `capacity` is in records, and more than 0.
-  OutletQueue(std::size_t capacity, WhenFull);
+  /// `capacity` is in records, and more than 0. `may_wait` is for WhenFull::wait, and asked again and again.
+  OutletQueue(std::size_t capacity, WhenFull, std::function<bool()> may_wait = {});
 
-  [[nodiscard]] Pushed push(const wire::Record&);
+  [[nodiscard]] Pushed push(const wire::Record&, std::int64_t time = 0);
   /// The oldest record; waits for one. None once the queue is closed and empty.
-  [[nodiscard]] std::optional<wire::Record> pop();
+  [[nodiscard]] std::optional<QueuedRecord> pop();
+  /// Likewise; none, too, when none has come for so long.
+  [[nodiscard]] std::optional<QueuedRecord> pop(std::chrono::nanoseconds wait);
   /// From now on nothing is taken. What is queued can still be popped.
   void close();
+  /// Closed and empty.
+  bool is_over() const;
 
   OutletQueueStatistics statistics() const;
 
  private:
   std::size_t size() const noexcept { return kept_constants_.size() + count_; }
-  wire::Record take_front();
+  QueuedRecord take_front();
+  /// The oldest of what is queued, if anything is.
+  std::optional<QueuedRecord> take(std::unique_lock<std::mutex>&);
   /// Room for one record, and what that cost.
   Pushed make_room();
   /// False where those of too many ids are kept.
   bool keep(const wire::CameraConstants&);
 
   const WhenFull when_full_;
+  const std::function<bool()> may_wait_;
   mutable std::mutex mutex_;
   std::condition_variable has_record_, has_room_;
   std::vector<wire::CameraConstants> kept_constants_;  // the oldest first, all older than ring_, an id once
-  std::vector<wire::Record> ring_;
+  std::vector<QueuedRecord> ring_;
   std::size_t front_ = 0, count_ = 0;  // of ring_
   std::uint64_t drops_ = 0;
   bool failed_ = false, closed_ = false;

@@ -63,11 +63,11 @@ void OutletWriter::refuse(const wire::CameraConstants& constants, const Loss::Ca
   lose(constants.id, cause);
 }
 
-void OutletWriter::write(const wire::CameraParams& params) {
+void OutletWriter::write(const wire::CameraParams& params, std::int64_t time) {
   auto* camera = find(params.id);
   if (const auto outgoing = converted(params, camera)) {
     const auto constants_written = constants_before_set(camera);
-    const auto params_written = put(*outgoing);
+    const auto params_written = put(*outgoing, time);
     const auto now = base::steady_now();
     statistics_.fails = !constants_written || !params_written;
     if (statistics_.fails) {
@@ -107,13 +107,13 @@ transport::Written OutletWriter::constants_before_set(Camera* camera) {
   return camera->constants_written;
 }
 
-template <typename Record>
-transport::Written OutletWriter::put(Record record) {
+template <typename Record, typename... Time>
+transport::Written OutletWriter::put(Record record, Time... time) {
   const auto own_id = record.id;
   record.id = sent_id(form_, own_id);
   statistics_.last_id = record.id;
   if (const auto wanted = form_.id.value_or(own_id); wanted != record.id) statistics_.left_out_id = wanted;
-  const auto written = sink_->write(record);
+  const auto written = sink_->write(record, time...);
   if (!written) lose(own_id, written.error());
   return written;
 }

@@ -77,13 +77,18 @@ class OutletWriter {
   /// there is a format, constants that leave no picture are not sent, and parameters are converted without any until
   /// others come; a datagram sink goes on repeating the last sound ones.
   void write(const wire::CameraConstants&);
-  /// Converts and sends them. Without a format all numbers stay as they came.
-  void write(const wire::CameraParams&);
+  /// Converts and sends them. Without a format all numbers stay as they came. `time` as in Sink::write.
+  void write(const wire::CameraParams&, std::int64_t time = 0);
+  /// Sink::prepare.
+  void prepare() { sink_->prepare(); }
   /// Ends the sink in order.
   [[nodiscard]] transport::Written close();
 
   /// A consistent snapshot. Any thread.
   OutletStatistics statistics() const noexcept { return published_.load(); }
+  /// Of the sink. Any thread.
+  std::string name() const { return sink_->name(); }
+  std::string notice() const { return sink_->notice(); }
 
  private:
   struct Camera {
@@ -103,8 +108,8 @@ class OutletWriter {
   /// The last attempt to write the camera's constants, after another one where that is due.
   transport::Written constants_before_set(Camera*);
   /// With the id of the form.
-  template <typename Record>
-  transport::Written put(Record);
+  template <typename Record, typename... Time>
+  transport::Written put(Record, Time...);
   void lose(std::uint32_t id, const Loss::Cause&) const;
   void publish() noexcept;
 

@@ -57,7 +57,7 @@ trkError trkFileOpenWrite(const char* fileName, const char* timeCode, const trkC
     if (fileName == nullptr || timeCode == nullptr || constants == nullptr || handle == nullptr) return trkFailed;
     const auto code = base::parse_time_code(timeCode);
     if (!code) return trkFailed;
-    auto recording = std::make_unique<file::TakeWriter>(fileName, *code, true);
+    auto recording = std::make_unique<file::TakeWriter>(fileName, *code, /*overwrite=*/true);
     // Without constants nothing stays of it.
     if (!recording->write(c_api::from_c(*constants))) return trkFailed;
     static std::once_flag registered;

@@ -3,6 +3,7 @@
 #include <exception>
 #include <iostream>
 
+#include "base/process.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::cli {
@@ -32,6 +33,7 @@ endpoints::Preset preset_from(const std::string& name) {
 }
 
 ExitCode run_program(CLI::App& app, int argc, const char* const* argv, const std::function<ExitCode()>& run) {
+  base::open_standard_descriptors();
   try {
     app.parse(argc, argv);
     return run();

@@ -25,8 +25,8 @@ std::uint32_t format_from(const std::string& words, const std::string& option = 
 /// The preset of that name.
 endpoints::Preset preset_from(const std::string& name);
 
-/// Parses, runs, and turns what is thrown into one line on standard error and an exit code: exit_usage for CLI's
-/// errors, exit_failed for all others.
+/// Opens standard descriptors that are closed on /dev/null, parses, runs, and turns what is thrown into one line on
+/// standard error and an exit code: exit_usage for CLI's errors, exit_failed for all others.
 ExitCode run_program(CLI::App&, int argc, const char* const* argv, const std::function<ExitCode()>& run);
 
 }  // namespace trk_bridge::cli

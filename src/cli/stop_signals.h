@@ -3,12 +3,13 @@
 
 #include <csignal>
 
+#include "base/process.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::cli {
 
-/// While it lives, SIGINT or SIGTERM stops `source`, where one is given, and is remembered; a second one of the same
-/// kind ends the process at once. SIGPIPE is ignored, so that a closed pipe is an error of writing. One at a time.
+/// While it lives, the first SIGINT or SIGTERM stops `source`, where one is given, and is remembered; what more of them
+/// do, base::StopSignals says. SIGPIPE is ignored, so that a closed pipe is an error of writing. One at a time.
 class StopSignals {
  public:
   explicit StopSignals(transport::Source* source = nullptr);
@@ -16,11 +17,10 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  static bool stopped() noexcept;
+  static bool stopped() noexcept { return base::StopSignals::came(); }
 
  private:
-  struct sigaction interrupt_ {};
-  struct sigaction terminate_ {};
+  base::StopSignals signals_;
   struct sigaction pipe_ {};
 };
 

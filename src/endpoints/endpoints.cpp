@@ -143,7 +143,9 @@ std::unique_ptr<transport::Source> open_source(std::string_view url, double fiel
 std::unique_ptr<transport::Sink> open_sink(std::string_view url) {
   const auto endpoint = parse_sink(url);
   if (!endpoint) throw TransportError(endpoint.error());
-  return endpoint->open();
+  auto sink = endpoint->open();
+  sink->prepare();
+  return sink;
 }
 
 }  // namespace trk_bridge::endpoints

@@ -1,8 +1,10 @@
 #include "part_file.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
-#include <system_error>
+#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
@@ -10,14 +12,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "trk_bridge/transport/source.h"
-
 namespace trk_bridge::file {
 namespace {
 
-[[noreturn]] void fail(const std::string& path, const std::string& reason) {
-  throw transport::TransportError(path + ": cannot be written: " + reason);
-}
+using transport::Descriptor;
+using transport::SinkFault;
+using transport::SinkReason;
+
+tl::unexpected<SinkFault> fault(SinkReason reason) { return tl::unexpected(SinkFault{reason}); }
+tl::unexpected<SinkFault> system_fault(int error) { return tl::unexpected(SinkFault{SinkReason::system, {}, error}); }
 
 /// Whether `fd` still is what `path` names: another writer may have finished between opening and locking.
 bool is_named(int fd, const std::string& path) {
@@ -27,33 +30,46 @@ bool is_named(int fd, const std::string& path) {
          mine.st_ino == there.st_ino;
 }
 
-/// Empties the locked file, or says why not.
-std::string empty(int fd, bool overwrite) {
+bool is_fifo_there(const std::string& path) {
   struct stat there {};
-  if (::fstat(fd, &there) != 0) return std::system_category().message(errno);
-  if (!S_ISREG(there.st_mode)) return "it is no ordinary file";
-  if (there.st_size > 0 && !overwrite) {
-    return "it holds what an interrupted writer left; move it away, or ask for overwriting (overwrite=1, --overwrite)";
-  }
-  return ::ftruncate(fd, 0) == 0 ? std::string() : std::system_category().message(errno);
+  return ::stat(path.c_str(), &there) == 0 && S_ISFIFO(there.st_mode);
+}
+
+/// Empties the locked file, or says why not.
+tl::expected<void, SinkFault> empty(int fd, bool overwrite) {
+  struct stat there {};
+  if (::fstat(fd, &there) != 0) return system_fault(errno);
+  if (!S_ISREG(there.st_mode)) return fault(SinkReason::not_a_file);
+  if (there.st_size > 0 && !overwrite) return fault(SinkReason::left_over);
+  if (::ftruncate(fd, 0) != 0) return system_fault(errno);
+  return {};
 }
 
 /// An empty file of that name, locked for as long as it is open.
-int create_locked(const std::string& part, bool overwrite) {
+tl::expected<Descriptor, SinkFault> create_locked(const std::string& part, const PartFile::Options& options) {
+  const int only_new = options.part == Part::refused ? O_EXCL : 0;
   for (;;) {
-    const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (fd < 0) fail(part, std::system_category().message(errno));
-    if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
-      const int error = errno;
-      ::close(fd);
-      fail(part, error == EWOULDBLOCK ? "another writer is writing it" : std::system_category().message(error));
+    // Of a FIFO that has this name, no reader is waited for.
+    Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | only_new, 0666));
+    if (!file.is_open()) {
+      if (errno == ENXIO) return fault(SinkReason::not_a_file);
+      return only_new != 0 && errno == EEXIST ? fault(SinkReason::in_use) : system_fault(errno);
     }
-    const bool mine = is_named(fd, part);
-    const std::string refused = mine ? empty(fd, overwrite) : std::string();
-    if (mine && refused.empty()) return fd;
-    ::close(fd);
-    if (mine) fail(part, refused);
+    if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
+      return errno == EWOULDBLOCK ? fault(SinkReason::in_use) : system_fault(errno);
+    }
+    if (!is_named(file.get(), part)) continue;
+    if (const auto emptied = empty(file.get(), options.overwrite); !emptied) return tl::unexpected(emptied.error());
+    return file;
   }
+}
+
+/// A FIFO that a program reads; writes to it wait.
+tl::expected<Descriptor, SinkFault> open_fifo(const std::string& path) {
+  Descriptor fifo(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
+  if (!fifo.is_open()) return errno == ENXIO ? fault(SinkReason::no_reader) : system_fault(errno);
+  if (::fcntl(fifo.get(), F_SETFL, 0) != 0) return system_fault(errno);
+  return fifo;
 }
 
 /// 0 or the errno of the refusal.
@@ -67,62 +83,133 @@ int rename_new(const std::string& from, const std::string& to) {
 
 /// A new name is on the disk only when its directory is. 0 or the errno of the refusal.
 int sync_directory(const std::string& directory) {
-  const int fd = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const Descriptor open(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // A directory may be writable and yet not readable; then there is no way to ask.
-  if (fd < 0) return errno == EACCES ? 0 : errno;
+  if (!open.is_open()) return errno == EACCES ? 0 : errno;
   // Not every file system can sync a directory.
-  const int error = ::fsync(fd) == 0 || errno == EINVAL ? 0 : errno;
-  ::close(fd);
-  return error;
+  return ::fsync(open.get()) == 0 || errno == EINVAL ? 0 : errno;
 }
 
-std::string directory_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+/// Up to the end of the last whole line; 0 where there is none.
+std::int64_t size_of_whole_lines(int fd, std::int64_t size) {
+  std::array<char, 4096> chunk{};
+  for (std::int64_t end = size; end > 0;) {
+    const std::int64_t begin = std::max<std::int64_t>(0, end - static_cast<std::int64_t>(chunk.size()));
+    const ssize_t got = ::pread(fd, chunk.data(), static_cast<std::size_t>(end - begin), static_cast<off_t>(begin));
+    if (got != end - begin) return 0;
+    for (std::int64_t i = got; i > 0; --i) {
+      if (chunk[static_cast<std::size_t>(i - 1)] == '\n') return begin + i;
+    }
+    end = begin;
+  }
+  return 0;
+}
+
+/// What `size` bytes of whole lines are.
+enum class Content { no_take, without_field, take };
+
+Content content_of(int fd, std::int64_t size) {
+  constexpr std::string_view magic = "DMC01\n";
+  std::array<char, 16384> head{};
+  const ssize_t got = ::pread(fd, head.data(), std::min(head.size(), static_cast<std::size_t>(size)), 0);
+  const std::string_view text(head.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
+  if (text.substr(0, magic.size()) != magic) return Content::no_take;
+  // A field is the fourth line that is no comment, behind magic, time code and constants.
+  int lines = 0;
+  char before = '\n';
+  for (const char c : text) {
+    if (before == '\n' && c != '#' && c != '\n') ++lines;
+    before = c;
+  }
+  return lines >= 4 ? Content::take : Content::without_field;
+}
+
+/// "take.recovered.trk" of "take.trk", "take.recovered-2.trk", …
+std::string recovered_name(const std::string& path, int number) {
+  const std::size_t name = path.rfind('/') + 1;  // 0 where there is none
+  const std::size_t dot = path.rfind('.');
+  const std::size_t end = dot == std::string::npos || dot <= name ? path.size() : dot;
+  return path.substr(0, end) + ".recovered" + (number > 1 ? "-" + std::to_string(number) : "") + path.substr(end);
 }
 
 }  // namespace
 
-PartFile::PartFile(std::string path, bool overwrite)
-    : path_(std::move(path)), part_(path_ + ".part"), directory_(directory_of(path_)), overwrite_(overwrite) {
-  check_target(path_, overwrite_);
-  fd_ = create_locked(part_, overwrite_);
+std::string directory_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "./" : path.substr(0, slash + 1);
 }
 
-void PartFile::check_target(const std::string& path, bool overwrite) {
-  if (path.empty()) fail("\"\"", "a file needs a name");
+PartFile::PartFile(const std::string& path, bool overwrite, Descriptor descriptor, bool is_fifo)
+    : path_(path),
+      part_(is_fifo ? path : path + ".part"),
+      directory_(directory_of(path)),
+      overwrite_(overwrite),
+      is_fifo_(is_fifo),
+      descriptor_(std::move(descriptor)) {}
+
+tl::expected<PartFile, SinkFault> PartFile::open(const std::string& path, const Options& options) {
+  if (const auto good = check(path, options); !good) return tl::unexpected(good.error());
+  const bool is_fifo = is_fifo_there(path);
+  auto opened = is_fifo ? open_fifo(path) : create_locked(path + ".part", options);
+  if (!opened) return tl::unexpected(opened.error());
+  return PartFile(path, options.overwrite, *std::move(opened), is_fifo);
+}
+
+tl::expected<void, SinkFault> PartFile::check(const std::string& path, const Options& options) {
   struct stat there {};
-  if (::lstat(path.c_str(), &there) != 0) return;
-  if (S_ISDIR(there.st_mode)) fail(path, "it is a directory");
-  if (!overwrite) fail(path, "it exists; overwriting it has to be asked for (overwrite=1, --overwrite)");
+  if (path.empty()) return system_fault(ENOENT);
+  if (options.fifo == Fifo::allowed && is_fifo_there(path)) return {};
+  if (::lstat(path.c_str(), &there) != 0) return {};
+  if (!S_ISREG(there.st_mode) && !S_ISLNK(there.st_mode)) return fault(SinkReason::not_a_file);
+  if (!options.overwrite) return fault(SinkReason::exists);
+  return {};
 }
-
-PartFile::~PartFile() { close(); }
 
 tl::expected<void, int> PartFile::publish(std::optional<std::int64_t> size) noexcept {
-  if (fd_ < 0) return tl::unexpected(EBADF);
+  if (!is_open()) return tl::unexpected(EBADF);
   const auto refused = [&]() noexcept {
-    if (size && ::ftruncate(fd_, static_cast<off_t>(*size)) != 0) return errno;
-    if (::fsync(fd_) != 0) return errno;
+    if (is_fifo_) return 0;
+    if (size && ::ftruncate(fd(), static_cast<off_t>(*size)) != 0) return errno;
+    if (::fsync(fd()) != 0) return errno;
     const int renamed =
         overwrite_ ? (::rename(part_.c_str(), path_.c_str()) == 0 ? 0 : errno) : rename_new(part_, path_);
     return renamed != 0 ? renamed : sync_directory(directory_);
   };
   const int error = refused();
-  close();
+  descriptor_.close();
   if (error != 0) return tl::unexpected(error);
   return {};
 }
 
 void PartFile::discard() noexcept {
-  if (fd_ < 0) return;
+  if (!is_open()) return;
   // Still locked, so that it is no other writer's.
-  ::unlink(part_.c_str());
-  close();
+  if (!is_fifo_) ::unlink(part_.c_str());
+  descriptor_.close();
 }
 
-void PartFile::close() noexcept {
-  if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+std::optional<std::string> recover_part(const std::string& path) {
+  constexpr std::string_view ending = ".part";
+  const Descriptor part(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  struct stat there {};
+  if (!part.is_open() || ::fstat(part.get(), &there) != 0 || !S_ISREG(there.st_mode)) return std::nullopt;
+  // An empty one may be a writer's that has not locked it yet.
+  if (there.st_size == 0 || ::flock(part.get(), LOCK_EX | LOCK_NB) != 0 || !is_named(part.get(), path)) {
+    return std::nullopt;
+  }
+  if (::fstat(part.get(), &there) != 0) return std::nullopt;
+  const std::int64_t size = size_of_whole_lines(part.get(), there.st_size);
+  const Content content = content_of(part.get(), size);
+  if (content == Content::without_field) ::unlink(path.c_str());
+  if (content != Content::take) return std::nullopt;
+  if (::ftruncate(part.get(), static_cast<off_t>(size)) != 0) return std::nullopt;
+  const std::string take = path.substr(0, path.size() - ending.size());
+  for (int number = 1;; ++number) {
+    const std::string name = recovered_name(take, number);
+    const int error = rename_new(path, name);
+    if (error == 0) return name;
+    if (error != EEXIST) return std::nullopt;
+  }
 }
 
 }  // namespace trk_bridge::file

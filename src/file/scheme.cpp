@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/time_text.h"
-#include "take_writer.h"
 
 namespace trk_bridge::file {
 namespace {
@@ -15,7 +14,6 @@ using transport::assign_switch;
 using transport::Direction;
 using transport::Option;
 using transport::real_number;
-using transport::Written;
 
 constexpr std::array<Option<SourceSettings>, 6> source_options{{
     {"rate", "fields a second from 0.001 to 100000",
@@ -40,18 +38,23 @@ constexpr std::array<Option<SourceSettings>, 6> source_options{{
      [](const std::string& v, SourceSettings& s) { return assign_switch(v, s.lenient); }},
 }};
 
-constexpr std::array<Option<SinkSettings>, 2> sink_options{{
+constexpr std::array<Option<SinkSettings>, 4> sink_options{{
     {"timecode", "HH:MM:SS:FF:D, D being 1 or 2",
      [](const std::string& v, SinkSettings& s) {
        const auto code = base::parse_time_code(v);
        if (code) s.time_code = *code;
        return code.has_value();
      }},
+    {"rate", "fields a second from 1 to 200, which the time code counts",
+     [](const std::string& v, SinkSettings& s) { return assign(real_number(v, 1, 200), s.rate); }},
+    {"number", transport::switch_allowed,
+     [](const std::string& v, SinkSettings& s) { return assign_switch(v, s.number); }},
     {"overwrite", transport::switch_allowed,
      [](const std::string& v, SinkSettings& s) { return assign_switch(v, s.overwrite); }},
 }};
 
-tl::expected<std::string, std::string> path_of(const transport::Url& url) {
+/// Without decoding.
+tl::expected<std::string_view, std::string> path_of(const transport::Url& url) {
   std::string_view place = url.place;
   if (place.substr(0, 2) == "//") {
     place.remove_prefix(2);
@@ -59,17 +62,19 @@ tl::expected<std::string, std::string> path_of(const transport::Url& url) {
       return tl::make_unexpected("\"" + url.place + "\": file:PATH and file:///PATH are allowed, a host is not");
     }
   }
-  auto path = transport::percent_decoded(place);
-  if (!path) return tl::make_unexpected("path = " + path.error());
-  if (path->empty()) return tl::make_unexpected(std::string("no path: file:PATH is allowed"));
-  return path;
+  if (place.empty()) return tl::make_unexpected(std::string("no path: file:PATH is allowed"));
+  return place;
 }
 
-template <typename Settings, typename Table, typename OtherTable>
-tl::expected<Settings, std::string> settings_of(const transport::Url& url, Direction direction, const Table& options,
+/// `read_path` makes of the path what the settings have.
+template <typename Settings, typename ReadPath, typename Table, typename OtherTable>
+tl::expected<Settings, std::string> settings_of(const transport::Url& url, Direction direction,
+                                                const ReadPath& read_path, const Table& options,
                                                 const OtherTable& other_way) {
-  auto path = path_of(url);
-  if (!path) return tl::make_unexpected(path.error());
+  const auto place = path_of(url);
+  if (!place) return tl::make_unexpected(place.error());
+  auto path = read_path(*place);
+  if (!path) return tl::make_unexpected("path = " + path.error());
   Settings settings;
   settings.path = *std::move(path);
   const auto set = transport::set_options(url, direction, settings, transport::keys_of(other_way), options);
@@ -77,32 +82,19 @@ tl::expected<Settings, std::string> settings_of(const transport::Url& url, Direc
   return settings;
 }
 
-class FileSink final : public transport::Sink {
- public:
-  explicit FileSink(const SinkSettings& settings) : writer_(settings.path, settings.time_code, settings.overwrite) {}
-
-  std::string name() const override { return "file " + writer_.path(); }
-
- private:
-  Written put(const wire::CameraParams& params) override { return writer_.write(params); }
-  Written put(const wire::CameraConstants& constants) override { return writer_.write(constants); }
-  Written finish() override { return writer_.close(); }
-
-  TakeWriter writer_;
-};
-
 }  // namespace
 
 tl::expected<SourceSettings, std::string> source_settings(const transport::Url& url) {
-  return settings_of<SourceSettings>(url, Direction::read, source_options, sink_options);
+  return settings_of<SourceSettings>(url, Direction::read, transport::percent_decoded, source_options, sink_options);
 }
 
 tl::expected<SinkSettings, std::string> sink_settings(const transport::Url& url) {
-  return settings_of<SinkSettings>(url, Direction::write, sink_options, source_options);
-}
-
-std::unique_ptr<transport::Sink> open_sink(const SinkSettings& settings) {
-  return std::make_unique<FileSink>(settings);
+  auto settings = settings_of<SinkSettings>(url, Direction::write, RecordingName::parse, sink_options, source_options);
+  if (settings && settings->number && settings->overwrite) {
+    return tl::make_unexpected(
+        std::string("option overwrite = \"1\": must not be given with number=1, which finds a ") + "name of its own");
+  }
+  return settings;
 }
 
 const transport::Scheme scheme{"file", "file:PATH",

@@ -8,6 +8,7 @@
 
 #include <tl/expected.hpp>
 
+#include "recording_name.h"
 #include "transport/scheme.h"
 #include "trk_bridge/base/time_code.h"
 
@@ -34,20 +35,23 @@ struct SourceSettings {
   bool lenient = false;  ///< lines that are not sound are left out
 };
 
-/// `file:PATH?timecode=…&overwrite=1`, to record a take.
+/// `file:PATH?timecode=…&rate=…&number=1&overwrite=1`, to record a take.
 struct SinkSettings {
-  std::string path;
-  base::TimeCode time_code;  ///< of the first field
-  bool overwrite = false;
+  RecordingName path;
+  std::optional<base::TimeCode> time_code;  ///< of the first field; default its time of day, UTC
+  double rate = 50;                         ///< Hz, 1 to 200, of the default time code
+  bool number = false;                      ///< the next free number in the name
+  bool overwrite = false;                   ///< not together with `number`
 };
 
 /// Errors name the part of the URL, its value and what is allowed.
 tl::expected<SourceSettings, std::string> source_settings(const transport::Url&);
 tl::expected<SinkSettings, std::string> sink_settings(const transport::Url&);
 
-/// Throw TransportError. A FIFO is opened at once, its lines are read as they come. `field_rate` (Hz) counts where the
+/// Throws TransportError. A FIFO is opened at once, its lines are read as they come. `field_rate` (Hz) counts where the
 /// settings have no `rate`.
 std::unique_ptr<transport::Source> open_source(const SourceSettings&, double field_rate);
+/// The file is not open yet (Sink::prepare). One that cannot be opened is tried again by writes, at most every second.
 std::unique_ptr<transport::Sink> open_sink(const SinkSettings&);
 
 extern const transport::Scheme scheme;

@@ -1,101 +1,146 @@
 #include "take_writer.h"
 
-#include <array>
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
-#include <sys/uio.h>
+#include <unistd.h>
 
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::file {
 namespace {
 
-tl::unexpected<transport::SinkFault> system_fault(int error) {
-  transport::SinkFault fault{transport::SinkReason::system};
-  fault.error_number = error;
-  return tl::unexpected(fault);
-}
+using transport::SinkFault;
+using transport::SinkReason;
+using transport::Written;
 
-tl::unexpected<transport::SinkFault> encode_fault(const wire::Fault& fault) {
-  return tl::unexpected(transport::SinkFault{transport::SinkReason::not_encodable, fault});
+tl::unexpected<SinkFault> fault(SinkReason reason) { return tl::unexpected(SinkFault{reason}); }
+tl::unexpected<SinkFault> system_fault(int error) { return tl::unexpected(SinkFault{SinkReason::system, {}, error}); }
+tl::unexpected<SinkFault> encode_fault(const wire::Fault& of_record) {
+  return tl::unexpected(SinkFault{SinkReason::not_encodable, of_record});
 }
 
 }  // namespace
 
-TakeWriter::TakeWriter(std::string path, const base::TimeCode& time_code, bool overwrite)
-    : file_(std::move(path), overwrite) {
-  const auto written =
-      append("DMC01\n# time code of the first field\n" + to_string(time_code) + "\n# constants of the camera");
-  if (!written) {
-    file_.discard();
-    throw transport::TransportError(
-        file_.part() + ": cannot be written: " + std::system_category().message(written.error().error_number));
-  }
+OpenedFile open_take(const std::string& path, bool overwrite) {
+  static_cast<void>(recover_part(path + ".part"));
+  return PartFile::open(path, {overwrite, Fifo::allowed});
+}
+
+TakeWriter::TakeWriter() { line_.reserve(2 * wire::max_datagram); }
+
+TakeWriter::TakeWriter(const std::string& path, const base::TimeCode& time_code, bool overwrite) : TakeWriter() {
+  time_code_ = time_code;
+  auto file = open_take(path, overwrite);
+  const Written opened = file ? open(*std::move(file)) : Written(tl::unexpected(file.error()));
+  if (!opened) throw transport::TransportError(path + ": cannot be written: " + transport::describe(opened.error()));
 }
 
 TakeWriter::~TakeWriter() { static_cast<void>(close()); }
 
-tl::expected<void, transport::SinkFault> TakeWriter::write(const wire::CameraConstants& constants) {
-  if (!file_.is_open()) return tl::unexpected(transport::SinkFault{transport::SinkReason::closed});
-  if (constants_) {
-    if (constants.id != constants_->id)
-      return tl::unexpected(transport::SinkFault{transport::SinkReason::other_camera});
+Written TakeWriter::open(PartFile file) {
+  file_ = std::move(file);
+  size_ = 0;
+  has_fields_ = false;
+  // Written now, so that a disk without room is known before the first field.
+  auto begun = append("DMC01\n");
+  if (!begun) file_.discard();
+  return begun;
+}
+
+tl::expected<std::string, SinkFault> TakeWriter::head() {
+  const auto text = wire::to_text(*constants_, buffer_);
+  if (!text) return encode_fault(text.error());
+  return "# time code of the first field\n" + to_string(time_code_) + "\n# constants of the camera\n" +
+         std::string(*text) + "\n";
+}
+
+Written TakeWriter::write(const wire::CameraConstants& constants) {
+  if (ended_) return fault(SinkReason::closed);
+  if (constants_ && constants.id != constants_->id) return fault(SinkReason::other_camera);
+  if (has_fields_) {
     constants_hold_ = *constants_ == constants;
-    if (!constants_hold_) return tl::unexpected(transport::SinkFault{transport::SinkReason::constants_changed});
+    if (!constants_hold_) return fault(SinkReason::constants_changed);
     return {};
   }
-  const auto text = wire::to_text(constants, buffer_);
-  if (!text) return encode_fault(text.error());
-  if (auto written = append(*text); !written) return written;
+  if (const auto text = wire::to_text(constants, buffer_); !text) return encode_fault(text.error());
   constants_ = constants;
   constants_hold_ = true;
   return {};
 }
 
-tl::expected<void, transport::SinkFault> TakeWriter::write(const wire::CameraParams& params) {
-  if (!file_.is_open()) return tl::unexpected(transport::SinkFault{transport::SinkReason::closed});
-  if (!constants_) return tl::unexpected(transport::SinkFault{transport::SinkReason::no_constants});
+Written TakeWriter::write(const wire::CameraParams& params) {
+  if (!is_open()) return fault(SinkReason::closed);
+  if (!constants_) return fault(SinkReason::no_constants);
   const std::uint32_t any = constants_->id == 0 ? params.id : constants_->id;
-  if (params.id != camera_.value_or(any))
-    return tl::unexpected(transport::SinkFault{transport::SinkReason::other_camera});
-  if (!constants_hold_) return tl::unexpected(transport::SinkFault{transport::SinkReason::constants_changed});
+  if (params.id != camera_.value_or(any)) return fault(SinkReason::other_camera);
+  if (!constants_hold_) return fault(SinkReason::constants_changed);
+  line_.clear();
+  if (!has_fields_) {
+    const auto before = head();
+    if (!before) return tl::unexpected(before.error());
+    line_ += *before;
+  }
   const auto text = wire::to_text(params, buffer_);
   if (!text) return encode_fault(text.error());
-  auto written = append(*text);
-  if (written) camera_ = params.id;
-  return written;
-}
-
-tl::expected<void, transport::SinkFault> TakeWriter::append(std::string_view line) {
-  std::array<iovec, 2> pieces{};
-  std::size_t done = 0;
-  const std::size_t length = line.size() + 1;
-  char newline = '\n';
-  while (done < length) {
-    const std::size_t of_line = done < line.size() ? line.size() - done : 0;
-    pieces[0] = {const_cast<char*>(line.data()) + (line.size() - of_line), of_line};
-    pieces[1] = {&newline, 1};
-    const ssize_t written = ::pwritev(file_.fd(), pieces.data(), static_cast<int>(pieces.size()),
-                                      static_cast<off_t>(size_ + static_cast<std::int64_t>(done)));
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return system_fault(written < 0 ? errno : EIO);
-    done += static_cast<std::size_t>(written);
-  }
-  size_ += static_cast<std::int64_t>(length);
+  line_ += *text;
+  line_ += '\n';
+  auto written = append(line_);
+  if (!written) return written;
+  camera_ = params.id;
+  has_fields_ = true;
   return {};
 }
 
-tl::expected<void, transport::SinkFault> TakeWriter::close() {
-  if (!file_.is_open()) return {};
+Written TakeWriter::append(std::string_view lines) {
+  std::size_t done = 0;
+  while (done < lines.size()) {
+    const std::string_view rest = lines.substr(done);
+    const ssize_t written = file_.is_fifo() ? ::write(file_.fd(), rest.data(), rest.size())
+                                            : ::pwrite(file_.fd(), rest.data(), rest.size(),
+                                                       static_cast<off_t>(size_ + static_cast<std::int64_t>(done)));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) {
+      const int error = written < 0 ? errno : EIO;
+      if (file_.is_fifo()) {
+        file_.discard();
+        has_fields_ = false;
+      }
+      return error == EPIPE ? fault(SinkReason::no_reader) : system_fault(error);
+    }
+    done += static_cast<std::size_t>(written);
+  }
+  size_ += static_cast<std::int64_t>(lines.size());
+  return {};
+}
+
+Written TakeWriter::close() {
+  ended_ = true;
+  if (!is_open()) return {};
+  const auto closed = finish();
+  // What was not published stays as the `.part`.
+  file_ = {};
+  return closed;
+}
+
+Written TakeWriter::finish() {
   if (!constants_) {
     file_.discard();
-    return tl::unexpected(transport::SinkFault{transport::SinkReason::no_constants});
+    return fault(SinkReason::no_constants);
+  }
+  if (!has_fields_) {
+    const auto before = head();
+    if (!before) return tl::unexpected(before.error());
+    if (auto written = append(*before); !written) return written;
   }
   // A write that failed half-way has left its beginning behind the last whole line.
   if (const auto published = file_.publish(size_); !published) return system_fault(published.error());
   return {};
+}
+
+void TakeWriter::discard() noexcept {
+  ended_ = true;
+  file_.discard();
 }
 
 }  // namespace trk_bridge::file

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <nodelet/nodelet.h>
+#include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/node_handle.h>
@@ -15,6 +16,8 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include "ros/parameter_reader.h"
+
+#include "base/process.h"
 
 namespace trk_bridge::nodes {
 
@@ -37,13 +40,15 @@ inline std::string camera_name_of(const std::string& name_space) {
   return last.empty() ? "camera" : last;
 }
 
-/// Runs a `Node` until ROS shuts down. Returns the exit status: 1 and a fatal message with the reason when it cannot
-/// start, 2 for arguments that nobody knows.
+/// Runs a `Node` until ROS shuts down or SIGINT or SIGTERM comes. Returns the exit status: 1 and a fatal message with
+/// the reason when it cannot start, 2 for arguments that nobody knows.
 template <typename Node>
 int node_main(int argc, char** argv, const char* name) {
+  base::open_standard_descriptors();
   std::vector<std::string> arguments;
   ::ros::removeROSArgs(argc, argv, arguments);
-  ::ros::init(argc, argv, name);
+  ::ros::init(argc, argv, name, ::ros::init_options::NoSigintHandler);
+  const base::StopSignals signals;
   if (arguments.size() > 1) {
     ROS_FATAL_STREAM(name << ": unknown argument '" << arguments[1]
                           << "'; only parameters (_name:=value) are accepted");
@@ -53,7 +58,10 @@ int node_main(int argc, char** argv, const char* name) {
   const ::ros::NodeHandle node;
   try {
     const Node running(node, ::ros::NodeHandle("~"), ::ros::this_node::getName());
-    ::ros::spin();
+    // As ros::spin(), but the node is destroyed while there still is a log.
+    while (::ros::ok() && !base::StopSignals::came()) {
+      ::ros::getGlobalCallbackQueue()->callAvailable(::ros::WallDuration(0.1));
+    }
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(::ros::this_node::getName() << " cannot start: " << error.what());
     return 1;

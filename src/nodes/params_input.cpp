@@ -23,7 +23,9 @@ void ParamsInput::receive(const trk_bridge::CameraConstants& message) {
 }
 
 void ParamsInput::receive(const trk_bridge::CameraParams& message) {
-  write_(sets_.use(ros1::from_msg(message), base::steady_now()));
+  auto set = sets_.use(ros1::from_msg(message), base::steady_now());
+  set.time = ros1::from_time(message.header.stamp);
+  write_(set);
   statistics_.store(sets_.statistics());
 }
 

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include <ros/node_handle.h>
 
@@ -17,11 +16,12 @@ namespace trk_bridge::nodes {
 class RosToTrk {
  public:
   /// Topics are in the namespace of `node`, parameters in that of `private_node`; `name` is the node's or nodelet's
-  /// full name. Throws ParameterError and TransportError.
+  /// full name. Throws ParameterError and TransportError; a recording or a segment that cannot be opened is no error
+  /// here but in the diagnostics.
   RosToTrk(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node, const std::string& name);
 
  private:
-  std::vector<std::unique_ptr<SinkOutput>> sinks_;
+  SinkOutputs sinks_;
   std::unique_ptr<TrkInput> input_;
   NodeDiagnostics diagnostics_;
 };

@@ -1,6 +1,9 @@
 #include "sink_output.h"
 
+#include <iostream>
+
 #include <ros/console.h>
+#include <ros/init.h>
 
 #include "base/clock.h"
 
@@ -14,6 +17,15 @@ bridge::OutletOptions options_for(const transport::SinkForm& form) {
   return options;
 }
 
+/// Also when ROS has shut down, and its log with it.
+void log_error(const std::string& text) {
+  if (::ros::ok()) {
+    ROS_ERROR_STREAM(text);
+  } else {
+    std::cerr << "[ERROR] " << text << std::endl;
+  }
+}
+
 }  // namespace
 
 SinkOutput::SinkOutput(const transport::SinkEndpoint& endpoint, const transport::SinkForm& form)
@@ -21,15 +33,25 @@ SinkOutput::SinkOutput(const transport::SinkEndpoint& endpoint, const transport:
 
 SinkOutput::~SinkOutput() {
   if (const auto closed = outlet_.close(); !closed) {
-    ROS_ERROR_STREAM(outlet_.name() << " was not closed in order: " << transport::describe(closed.error()));
+    const auto lost = outlet_.unwritten();
+    log_error(outlet_.name() + " was not closed in order: " + transport::describe(closed.error()) +
+              (lost > 0 ? "; " + std::to_string(lost) + " records that waited are lost" : ""));
   }
 }
 
 void SinkOutput::write(const bridge::OutgoingSet& set) {
   if (set.constants) outlet_.write(*set.constants);
-  outlet_.write(set.params);
+  outlet_.write(set.params, set.time);
 }
 
 bridge::Status SinkOutput::describe() { return reporter_.status(bridge::report_of(outlet_, base::steady_now())); }
+
+SinkOutputs::~SinkOutputs() {
+  for (const auto& sink : sinks_) sink->finish();
+}
+
+void SinkOutputs::write(const bridge::OutgoingSet& set) {
+  for (const auto& sink : sinks_) sink->write(set);
+}
 
 }  // namespace trk_bridge::nodes

@@ -1,6 +1,10 @@
 // One sink of ros_to_trk: written to, watched, reported.
 #pragma once
 
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "bridge/outgoing_diagnostics.h"
 #include "bridge/outgoing_set.h"
 #include "bridge/outlet.h"
@@ -11,7 +15,8 @@ namespace trk_bridge::nodes {
 /// write() belongs to one thread, describe() to the diagnostics' one.
 class SinkOutput {
  public:
-  /// Opens the sink; `form` is used for what the endpoint does not say. Throws TransportError.
+  /// `form` is used for what the endpoint does not say. What can block is opened in a thread of its own, and that it
+  /// cannot be opened is in describe(). Throws TransportError for the others.
   SinkOutput(const transport::SinkEndpoint&, const transport::SinkForm& form);
   /// Closes it, and logs an error where that fails.
   ~SinkOutput();
@@ -19,6 +24,8 @@ class SinkOutput {
   SinkOutput& operator=(const SinkOutput&) = delete;
 
   void write(const bridge::OutgoingSet&);
+  /// Nothing is written any more; does not wait.
+  void finish() { outlet_.finish(); }
 
   /// Findings of a kind that was not met before go to the log, too.
   bridge::Status describe();
@@ -28,6 +35,24 @@ class SinkOutput {
  private:
   bridge::Outlet outlet_;
   StatusReporter<bridge::SinkReport> reporter_;
+};
+
+/// All sinks of a node. They end at the same time.
+class SinkOutputs {
+ public:
+  SinkOutputs() = default;
+  ~SinkOutputs();
+  SinkOutputs(const SinkOutputs&) = delete;
+  SinkOutputs& operator=(const SinkOutputs&) = delete;
+
+  void add(const transport::SinkEndpoint& endpoint, const transport::SinkForm& form) {
+    sinks_.push_back(std::make_unique<SinkOutput>(endpoint, form));
+  }
+  void write(const bridge::OutgoingSet&);
+  const std::vector<std::unique_ptr<SinkOutput>>& all() const noexcept { return sinks_; }
+
+ private:
+  std::vector<std::unique_ptr<SinkOutput>> sinks_;
 };
 
 }  // namespace trk_bridge::nodes

@@ -14,6 +14,9 @@ using transport::TransportError;
 using transport::Written;
 
 Link::Options options_of(const Settings& settings) {
+  if (settings.slot < 0 || settings.slot >= slot_count) {
+    throw TransportError("shm " + describe({SlotProblem::bad_slot, settings.slot}));
+  }
   const std::string slot = "shm slot " + std::to_string(settings.slot);
   const wire::Layout record = wire::resolve(settings.layout, default_layout);
   const SegmentLayout* layout = layout_of(record);
@@ -37,15 +40,16 @@ SinkFault fault_of(const SlotFault& fault) noexcept {
 class ShmSink final : public transport::Sink {
  public:
   explicit ShmSink(const Settings& settings)
-      : name_("shm slot " + std::to_string(settings.slot)), link_(options_of(settings)) {
-    const auto open = link_.keep_for_writing(Link::Clock::now());
-    if (!open && !is_transient(open.error().problem)) throw TransportError("shm " + describe(open.error()));
-    if (open && !link_.segment()->writable()) throw TransportError(name_ + ": no permission to write to the segment");
-  }
+      : name_("shm slot " + std::to_string(settings.slot)), link_(options_of(settings)) {}
 
   std::string name() const override { return name_; }
 
  private:
+  void get_ready() override {
+    const auto open = link_.keep_for_writing(Link::Clock::now());
+    if (!open && !is_transient(open.error().problem)) throw TransportError("shm " + describe(open.error()));
+    if (open && !link_.segment()->writable()) throw TransportError(name_ + ": no permission to write to the segment");
+  }
   Written put(const wire::CameraParams& params) override { return write_record(params); }
   Written put(const wire::CameraConstants& constants) override { return write_record(constants); }
   Written finish() override {

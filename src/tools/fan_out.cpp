@@ -20,7 +20,9 @@ std::string why(const Cause& cause) {
 }
 
 bool is_failure(const Cause& cause) {
-  if (const auto* fault = std::get_if<SinkFault>(&cause)) return fault->reason != SinkReason::no_constants;
+  if (const auto* fault = std::get_if<SinkFault>(&cause)) {
+    return fault->reason != SinkReason::no_constants && fault->reason != SinkReason::no_reader;
+  }
   if (const auto* reason = std::get_if<OutletReason>(&cause)) return *reason != OutletReason::outdated;
   return true;
 }
@@ -42,13 +44,14 @@ std::string first_report(const bridge::Loss& loss, const transport::SinkForm& fo
 void FanOut::add(const transport::SinkEndpoint& endpoint, const transport::SinkForm& defaults) {
   bridge::OutletOptions options;
   options.defaults = defaults;
-  options.caller_can_wait = source_can_wait_;
+  options.may_wait = may_wait_;
+  options.must_open = true;
   options.listener = [this, sink = outlets_.size()](const bridge::Loss& loss) { count(sink, loss); };
   outlets_.push_back(std::make_unique<bridge::Outlet>(endpoint, options));
 }
 
-void FanOut::write(const wire::CameraParams& params) {
-  for (const auto& outlet : outlets_) outlet->write(params);
+void FanOut::write(const wire::CameraParams& params, std::int64_t time) {
+  for (const auto& outlet : outlets_) outlet->write(params, time);
 }
 
 void FanOut::write(const wire::CameraConstants& constants) {
@@ -69,14 +72,20 @@ void FanOut::report(const std::string& line) {
 }
 
 void FanOut::close() {
+  for (const auto& outlet : outlets_) outlet->finish();
   for (const auto& outlet : outlets_) {
     const auto closed = outlet->close();
     if (closed) continue;
+    const auto lost = outlet->unwritten();
     report("error: " + outlet->name() + ": " +
            (closed.error().reason == SinkReason::no_constants ? "no constants came, so nothing was kept"
-                                                              : transport::describe(closed.error())));
+                                                              : transport::describe(closed.error())) +
+           (lost > 0 ? "; " + std::to_string(lost) + " records that waited are lost" : ""));
     const std::lock_guard<std::mutex> lock(mutex_);
     is_good_ = false;
+  }
+  for (const auto& outlet : outlets_) {
+    if (const auto notice = outlet->state().notice; !notice.empty()) report(outlet->name() + ": " + notice);
   }
 }
 
@@ -88,7 +97,7 @@ void FanOut::summarise() const {
   }
   for (const auto& [cause, times] : causes_) {
     const auto& [sink, reason] = cause;
-    const auto& name = outlets_[sink]->name();
+    const auto name = outlets_[sink]->name();
     if (!std::holds_alternative<SinkFault>(reason)) {
       err_ << "trk: " << name << ": not passed on: " << times << " records: " << why(reason) << '\n';
     } else if (times > 1) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <map>
 #include <memory>
@@ -18,21 +19,23 @@ namespace trk_bridge::tools {
 /// time.
 class FanOut {
  public:
-  /// `source_can_wait`: see OutletOptions::caller_can_wait.
-  FanOut(std::ostream& err, bool source_can_wait) : err_(err), source_can_wait_(source_can_wait) {}
+  /// `may_wait`: see OutletOptions.
+  explicit FanOut(std::ostream& err, std::function<bool()> may_wait = {}) : err_(err), may_wait_(std::move(may_wait)) {}
 
   /// Opens one more. `defaults` count for what the endpoint does not say. Throws TransportError.
   void add(const transport::SinkEndpoint&, const transport::SinkForm& defaults);
 
-  void write(const wire::CameraParams&);
+  /// `time` as in Sink::write.
+  void write(const wire::CameraParams&, std::int64_t time = 0);
   void write(const wire::CameraConstants&);
-  /// Writes what is queued and closes all.
+  /// Writes what is queued and closes all, at the same time.
   void close();
 
   /// A line on `err`, whole whatever other threads report. Any thread.
   void report(const std::string& line);
-  /// Once it is closed, whether every sink took everything. That a file left out what came before its constants and
-  /// that shared memory left out sets that newer ones replaced is reported and counted, but is no failure.
+  /// Once it is closed, whether every sink took everything. That a file left out what came before its constants, that a
+  /// FIFO left out what came before its reader, and that shared memory left out sets that newer ones replaced is
+  /// reported and counted, but is no failure.
   bool is_good() const noexcept { return is_good_; }
   /// Once it is closed: what was sent, a line a sink, and how often each cause came.
   void summarise() const;
@@ -47,7 +50,7 @@ class FanOut {
   void count(std::size_t sink, const bridge::Loss&);
 
   std::ostream& err_;
-  const bool source_can_wait_;
+  const std::function<bool()> may_wait_;
   std::mutex mutex_;  // of err_, causes_ and is_good_ until it is closed
   std::map<Cause, std::uint64_t> causes_;
   bool is_good_ = true;

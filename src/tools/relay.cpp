@@ -16,7 +16,11 @@ class Relay final : public cli::Listener {
 
   bool on_sample(const transport::Sample& sample) override {
     tally_.add(sample);
-    std::visit([this](const auto& record) { sinks_.write(record); }, sample.record);
+    if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) {
+      sinks_.write(*params, sample.arrival);
+    } else {
+      sinks_.write(std::get<wire::CameraConstants>(sample.record));
+    }
     return true;
   }
 

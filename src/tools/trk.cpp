@@ -1,4 +1,5 @@
 // trk: one tool over endpoints.
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -107,7 +108,7 @@ class RelayCommand {
     for (const auto& url : sink_urls_) to.push_back(checked(cli::sink_from(url)));
 
     const auto source = from.open(default_field_rate);
-    FanOut sinks(std::cerr, from.can_wait);
+    FanOut sinks(std::cerr, from.can_wait ? [] { return !cli::StopSignals::stopped(); } : std::function<bool()>());
     for (const auto& endpoint : to) sinks.add(endpoint, form_);
     const cli::StopSignals signals(source.get());
     std::cerr << "trk: reading " << source->name() << '\n';

@@ -31,6 +31,20 @@ std::string describe(const SinkFault& fault) {
       return "there is no segment that can be written to; every write looks for one or creates it";
     case SinkReason::closed:
       return "the sink is closed";
+    case SinkReason::exists:
+      return "it exists; overwriting it has to be asked for (overwrite=1, --overwrite)";
+    case SinkReason::left_over:
+      return "its .part holds what an interrupted writer left; move that away, or ask for overwriting (--overwrite)";
+    case SinkReason::in_use:
+      return "another writer is writing it";
+    case SinkReason::not_a_file:
+      return "it is neither an ordinary file nor a FIFO";
+    case SinkReason::no_reader:
+      return "no program reads this FIFO";
+    case SinkReason::no_free_number:
+      return "the numbers from 001 to 9999 are all taken";
+    case SinkReason::no_answer:
+      return "it does not answer, and was not waited for";
   }
   return "unknown fault";
 }
@@ -41,7 +55,12 @@ Written Sink::counted(const Written& written, std::uint64_t& good) noexcept {
   return written;
 }
 
-Written Sink::write(const wire::CameraParams& params) {
+void Sink::prepare() {
+  if (!closed_) get_ready();
+}
+
+Written Sink::write(const wire::CameraParams& params, std::int64_t time) {
+  time_ = time;
   return counted(closed_ ? tl::make_unexpected(SinkFault{SinkReason::closed}) : put(params), counts_.params);
 }
 

@@ -9,8 +9,11 @@ NodeProcessTest::NodeProcessTest(const std::string& of_program)
     : CameraTest(of_program.substr(of_program.find_last_of('/') + 1)), program_path(of_program) {}
 
 void NodeProcessTest::start() {
-  node = std::make_unique<Program>(
-      std::vector<std::string>{program_path, "__ns:=" + name_space, "/diagnostics:=" + diagnostics.topic()});
+  auto words = launcher;
+  for (const auto& word : {program_path, "__ns:=" + name_space, "/diagnostics:=" + diagnostics.topic()}) {
+    words.push_back(word);
+  }
+  node = std::make_unique<Program>(words);
 }
 
 ::testing::AssertionResult NodeProcessTest::starts() {

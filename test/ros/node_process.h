@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "fixture.h"
 #include "program.h"
@@ -24,6 +25,7 @@ class NodeProcessTest : public CameraTest {
   std::chrono::nanoseconds interrupted();
 
   std::string program_path;
+  std::vector<std::string> launcher;  ///< words before the program's, where it is to be run by another one
   std::unique_ptr<Program> node;
 };
 

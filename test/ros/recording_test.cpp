@@ -5,6 +5,7 @@
 #include <rosgraph_msgs/Clock.h>
 
 #include "file/take.h"
+#include "file/take_writer.h"
 #include "fixture.h"
 #include "program.h"
 #include "roslaunch.h"

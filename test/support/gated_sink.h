@@ -1,12 +1,14 @@
 // A sink whose writes wait for the test's permission, to stand for a disk or a segment that is slow.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -27,6 +29,30 @@ class Gate {
     change([&] { fault_ = fault; });
   }
 
+  /// From now on opening waits until it is permitted.
+  void block_opening() {
+    change([&] { may_open_ = false; });
+  }
+  void permit_opening() {
+    change([&] { may_open_ = true; });
+  }
+  /// Why opening fails; empty: it does not.
+  void set_opening_error(const std::string& error) {
+    change([&] { opening_error_ = error; });
+  }
+  /// Every write takes so long.
+  void set_delay(std::chrono::milliseconds delay) {
+    change([&] { delay_ = delay; });
+  }
+
+  /// Whether it was tried that often to open it.
+  bool was_tried(int times) {
+    return becomes([&] { return attempts_ >= times; });
+  }
+  /// Whether it is closed within the deadline.
+  bool closes() {
+    return becomes([&] { return closed_; });
+  }
   /// Whether that many records, or more, were written within the deadline.
   bool has_written(std::size_t count) {
     return becomes([&] { return records_.size() >= count; });
@@ -50,8 +76,21 @@ class Gate {
     return closed_;
   }
 
+  void prepare() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++attempts_;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return may_open_; });
+    if (!opening_error_.empty()) throw transport::TransportError(opening_error_);
+  }
   transport::Written write(const wire::Record& record) {
     std::unique_lock<std::mutex> lock(mutex_);
+    if (delay_ > delay_.zero()) {
+      const auto delay = delay_;
+      lock.unlock();
+      std::this_thread::sleep_for(delay);
+      lock.lock();
+    }
     waiting_ = true;
     changed_.notify_all();
     changed_.wait(lock, [&] { return open_; });
@@ -88,37 +127,47 @@ class Gate {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  bool open_ = false, waiting_ = false, closed_ = false;
+  bool open_ = false, waiting_ = false, closed_ = false, may_open_ = true;
+  int attempts_ = 0;
+  std::string opening_error_;
+  std::chrono::milliseconds delay_{0};
   std::optional<transport::SinkFault> fault_;
   std::vector<wire::Record> records_;
 };
 
 class GatedSink final : public transport::Sink {
  public:
-  GatedSink(Gate& gate, std::string name) : gate_(gate), name_(std::move(name)) {}
+  GatedSink(std::shared_ptr<Gate> gate, std::string name) : gate_(std::move(gate)), name_(std::move(name)) {}
   std::string name() const override { return name_; }
 
  private:
-  transport::Written put(const wire::CameraParams& params) override { return gate_.write(params); }
-  transport::Written put(const wire::CameraConstants& constants) override { return gate_.write(constants); }
+  void get_ready() override { gate_->prepare(); }
+  transport::Written put(const wire::CameraParams& params) override { return gate_->write(params); }
+  transport::Written put(const wire::CameraConstants& constants) override { return gate_->write(constants); }
   transport::Written finish() override {
-    gate_.close();
+    gate_->close();
     return {};
   }
 
-  Gate& gate_;
+  const std::shared_ptr<Gate> gate_;
   const std::string name_;
 };
 
-/// An endpoint of a gate that outlives what is opened.
-inline transport::SinkEndpoint endpoint_of(Gate& gate, transport::Blocking blocking = transport::Blocking::never,
+/// An endpoint of a gate that what is opened may outlive.
+inline transport::SinkEndpoint endpoint_of(const std::shared_ptr<Gate>& gate,
+                                           transport::Blocking blocking = transport::Blocking::never,
                                            const transport::SinkForm& form = {}, const std::string& name = "gate") {
   transport::SinkEndpoint endpoint;
   endpoint.url = "test:" + name;
   endpoint.form = form;
   endpoint.blocking = blocking;
-  endpoint.open = [&gate, name] { return std::make_unique<GatedSink>(gate, name); };
+  endpoint.open = [gate, name] { return std::make_unique<GatedSink>(gate, name); };
   return endpoint;
+}
+/// An endpoint of a gate that outlives what is opened.
+inline transport::SinkEndpoint endpoint_of(Gate& gate, transport::Blocking blocking = transport::Blocking::never,
+                                           const transport::SinkForm& form = {}, const std::string& name = "gate") {
+  return endpoint_of(std::shared_ptr<Gate>(&gate, [](Gate*) {}), blocking, form, name);
 }
 
 }  // namespace trk_bridge::test

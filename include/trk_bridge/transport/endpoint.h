@@ -45,7 +45,8 @@ struct SinkEndpoint {
   std::string url;  ///< as it was given
   SinkForm form;
   Blocking blocking = Blocking::never;
-  /// Throws TransportError. An interface or a route that is not there yet is no error.
+  /// Does not block, apart from looking up a host's name: what else can block is done by Sink::prepare. Throws
+  /// TransportError; an interface or a route that is not there yet is no error.
   std::function<std::unique_ptr<Sink>()> open;
 };
 

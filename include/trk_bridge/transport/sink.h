@@ -22,6 +22,13 @@ enum class SinkReason : std::uint8_t {
   no_interface,       ///< the interface to send through is not there or has no address; writes go out when it has
   gone,               ///< no segment can be written to: every write looks for one, or creates it
   closed,             ///< close() was called before
+  exists,             ///< a file of that name is there, and overwriting was not asked for
+  left_over,          ///< a `.part` is there that an interrupted writer left
+  in_use,             ///< another writer writes to the same name
+  not_a_file,         ///< the name is that of something that is neither an ordinary file nor a FIFO
+  no_reader,          ///< no program reads the FIFO
+  no_free_number,     ///< every number that a name can have is taken
+  no_answer,          ///< a write or the end took too long and was not waited for
 };
 
 /// Why a write or a close failed. Trivially copyable.
@@ -45,7 +52,7 @@ struct SinkStatistics {
 using Written = tl::expected<void, SinkFault>;
 
 /// One place that records go to. What is written before or after a failed write is not lost by it. One thread at a
-/// time, but for statistics().
+/// time, but for statistics(), name() and notice().
 ///
 /// Whether constants are new is the caller's matter (camera::Converter knows): a sink writes what it is given.
 /// Receivers of datagrams that join late would never see constants, so that datagram sinks repeat them by themselves.
@@ -55,9 +62,13 @@ class Sink {
   Sink(const Sink&) = delete;
   Sink& operator=(const Sink&) = delete;
 
+  /// Does what the first write would do first, so that it is known before whether records can go out: a file is
+  /// created, a segment attached or created. May block. Throws TransportError with the reason; a later write, or this
+  /// function called again, tries again. Does nothing where it is done.
+  void prepare();
   /// Writes one set of parameters; a datagram sink sends the constants of the same id before it when their period has
-  /// passed.
-  [[nodiscard]] Written write(const wire::CameraParams&);
+  /// passed. `time` is when they were true, ns since 1970 UTC; 0: now.
+  [[nodiscard]] Written write(const wire::CameraParams&, std::int64_t time = 0);
   [[nodiscard]] Written write(const wire::CameraConstants&);
   /// Ends in order: a file gets its final name. Closing again does nothing. A sink that is destroyed without it ends
   /// likewise, but cannot report how that went.
@@ -65,8 +76,11 @@ class Sink {
 
   /// A consistent snapshot. Any thread.
   SinkStatistics statistics() const noexcept { return published_.load(); }
-  /// The endpoint as a person reads it: "udp to 192.0.2.7:7000", "shm slot 7", "file take.trk".
+  /// The endpoint as a person reads it: "udp to 192.0.2.7:7000", "shm slot 7", "file take.trk". Any thread: a file that
+  /// is named by the time of its first field has its name from then on.
   virtual std::string name() const = 0;
+  /// What a person should know though nothing is wrong: recordings that were recovered. Any thread.
+  virtual std::string notice() const { return {}; }
 
  protected:
   Sink() = default;
@@ -74,14 +88,18 @@ class Sink {
   void count_constants() noexcept { ++counts_.constants; }
   /// Counts parameters that went out though put() gives a fault.
   void count_params() noexcept { ++counts_.params; }
+  /// Of the parameters that put() is given, ns since 1970 UTC; 0: now.
+  std::int64_t time() const noexcept { return time_; }
 
  private:
+  virtual void get_ready() {}
   virtual Written put(const wire::CameraParams&) = 0;
   virtual Written put(const wire::CameraConstants&) = 0;
   virtual Written finish() = 0;
   Written counted(const Written&, std::uint64_t& good) noexcept;
 
   bool closed_ = false;
+  std::int64_t time_ = 0;
   SinkStatistics counts_;
   base::Snapshot<SinkStatistics> published_;
 };

@@ -52,6 +52,45 @@ TEST_F(BagCommandTest, ExistingTargetsNeedOverwrite) {
   EXPECT_EQ(test::read_text(directory / "back.trk"), "precious");
 }
 
+/// On a small file system of their own, which nobody else sees.
+class OnAFullDisk : public BagCommandTest {
+ protected:
+  /// Runs it where `size` is left, and then lists the directory.
+  int run_with_room(const std::string& size, const std::string& arguments) {
+    test::Program program({"/bin/sh", "-c",
+                           "exec unshare --user --map-root-user --mount /bin/sh -c 'mount -t tmpfs -o size=" + size +
+                               " trk_bridge_test " + directory.path() + "; cd " + directory.path() + "; " +
+                               std::string(TRK_TOOL) + " bag " + arguments + "; code=$?; ls; exit $code'"});
+    err_text = program.rest_of_err();
+    left = program.rest_of_out();
+    return program.wait();
+  }
+
+  std::string left;
+};
+class BagOnAFullDisk : public OnAFullDisk, public testing::WithParamInterface<std::string> {};
+
+TEST_P(BagOnAFullDisk, IsAnErrorAndLeavesNothing) {
+  ASSERT_EQ(run_with_room("100M", take + " x.bag --compression " + GetParam()), 0) << err_text;
+  ASSERT_EQ(left, "x.bag\n");
+  for (const char* size : {"4k", "8k", "60k"}) {
+    EXPECT_EQ(run_with_room(size, take + " x.bag --compression " + GetParam()), 1) << size;
+    EXPECT_THAT(err_text, HasSubstr("trk: error: x.bag: cannot be written: No space left on device")) << size;
+    EXPECT_EQ(left, "") << size;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Compressions, BagOnAFullDisk, testing::Values("none", "bz2", "lz4"),
+                         [](const auto& test) { return test.param; });
+
+TEST_F(OnAFullDisk, ATakeIsAnErrorAndLeavesNothing) {
+  const test::TemporaryDirectory other;
+  ASSERT_EQ(run({take, other / "x.bag"}), 0) << err_text;
+  EXPECT_EQ(run_with_room("100k", other / "x.bag" + " x.trk"), 1);
+  EXPECT_THAT(err_text, HasSubstr("x.trk: cannot be written: the system refused: No space left on device"));
+  EXPECT_EQ(left, "");
+}
+
 TEST_F(BagCommandTest, WrongOptionsAreUsageErrors) {
   EXPECT_EQ(run({take, bag, "--input", "tf"}), 2);
   EXPECT_THAT(err_text, HasSubstr("--input is only for making a take of a bag"));

@@ -185,7 +185,8 @@ TEST_F(TfDiagnostics, APoseThatIsNoCameraIsNoStaleTf) {
 class SinkDiagnostics : public ::testing::Test {
  protected:
   SinkDiagnostics() {
-    now.name = "file take.trk";
+    now.state.name = "file take.trk";
+    now.state.is_open = true;
     now.form.format = wire::euler;
     before.time = 10 * second;
     now.time = 12 * second;
@@ -214,6 +215,32 @@ TEST_F(SinkDiagnostics, SendingIsOkWithItsRate) {
 TEST_F(SinkDiagnostics, NothingWrittenYet) {
   now.sink = {};
   expect(status(), Level::ok, "open, nothing written yet");
+}
+
+TEST_F(SinkDiagnostics, WhatIsNotOpenYetIsNotCalledOpen) {
+  now.sink = {};
+  now.state.is_open = false;
+  expect(status(), Level::ok, "is being opened");
+}
+
+TEST_F(SinkDiagnostics, WhatCannotBeOpenedIsAnErrorWithTheReason) {
+  now.state.is_open = false;
+  now.state.cannot_open = "take.trk: cannot be written: it exists";
+  fail(10);
+  expect(status(), Level::error, "nothing goes out: take.trk: cannot be written: it exists");
+}
+
+TEST_F(SinkDiagnostics, AWriteThatTakesLongIsAnErrorWhileItLasts) {
+  now.queue = before.queue = OutletQueueStatistics{120, 0, false};
+  now.state.busy_since = now.time - second / 2;
+  expect(status(), Level::ok, "sending");
+  now.state.busy_since = now.time - 5 * second / 2;
+  expect(status(), Level::error, "nothing goes out: no answer for 2.5 s; 120 records wait");
+}
+
+TEST_F(SinkDiagnostics, ANoticeIsShownAndNoFault) {
+  now.state.notice = "recovered from an interrupted recording: take.recovered.trk";
+  expect(status(), Level::ok, "take.recovered.trk");
 }
 
 TEST_F(SinkDiagnostics, NothingThatGoesOutIsAnError) {

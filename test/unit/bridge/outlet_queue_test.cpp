@@ -1,5 +1,7 @@
 #include "bridge/outlet_queue.h"
 
+#include <atomic>
+#include <chrono>
 #include <future>
 #include <thread>
 #include <vector>
@@ -20,7 +22,7 @@ using wire::Record;
 std::vector<Record> all_of(OutletQueue& queue) {
   queue.close();
   std::vector<Record> records;
-  while (const auto record = queue.pop()) records.push_back(*record);
+  while (const auto queued = queue.pop()) records.push_back(queued->record);
   return records;
 }
 
@@ -89,7 +91,7 @@ TEST(OutletQueue, OneThatMustNotDropFailsForGood) {
   EXPECT_EQ(queue.push(params(1)), Pushed::queued);
   EXPECT_EQ(queue.push(params(2)), Pushed::queued);
   EXPECT_EQ(queue.push(params(3)), Pushed::refused);
-  EXPECT_EQ(*queue.pop(), Record(params(1)));
+  EXPECT_EQ(queue.pop()->record, Record(params(1)));
   EXPECT_EQ(queue.push(params(4)), Pushed::refused) << "there is room, but a part is missing";
   EXPECT_TRUE(queue.statistics().failed);
   EXPECT_EQ(queue.statistics().drops, 2u);
@@ -104,13 +106,42 @@ TEST(OutletQueue, WhoCanWaitWaitsForRoom) {
     queue.close();
   });
   std::uint64_t counter = 0;
-  while (const auto record = queue.pop()) {
+  while (const auto queued = queue.pop()) {
     EXPECT_LE(queue.statistics().queued, 2u);
-    EXPECT_EQ(*record, Record(params(++counter)));
+    EXPECT_EQ(queued->record, Record(params(++counter)));
   }
   pusher.join();
   EXPECT_EQ(counter, count);
   EXPECT_EQ(queue.statistics().drops, 0u);
+}
+
+TEST(OutletQueue, WhoMayNotWaitAnyMoreDoesNot) {
+  std::atomic<bool> may_wait{true};
+  OutletQueue queue(1, WhenFull::wait, [&may_wait] { return may_wait.load(); });
+  EXPECT_EQ(queue.push(params(1)), Pushed::queued);
+  auto pushed = std::async(std::launch::async, [&queue] { return queue.push(params(2)); });
+  EXPECT_EQ(pushed.wait_for(std::chrono::milliseconds(200)), std::future_status::timeout);
+  may_wait = false;
+  ASSERT_EQ(pushed.wait_for(test::deadline), std::future_status::ready);
+  EXPECT_EQ(pushed.get(), Pushed::refused);
+  EXPECT_EQ(queue.statistics().drops, 1u);
+}
+
+TEST(OutletQueue, RecordsKeepTheirTime) {
+  OutletQueue queue(2, WhenFull::fail);
+  ASSERT_EQ(queue.push(params(1), 1234), Pushed::queued);
+  EXPECT_EQ(queue.pop()->time, 1234);
+}
+
+TEST(OutletQueue, APopThatWaitsForSomeTimeOnlySaysNoneAndIsNotTheEnd) {
+  OutletQueue queue(2, WhenFull::fail);
+  EXPECT_FALSE(queue.pop(std::chrono::milliseconds(10)));
+  EXPECT_FALSE(queue.is_over());
+  ASSERT_EQ(queue.push(params(1)), Pushed::queued);
+  queue.close();
+  EXPECT_FALSE(queue.is_over()) << "one is left";
+  EXPECT_TRUE(queue.pop(std::chrono::milliseconds(10)));
+  EXPECT_TRUE(queue.is_over());
 }
 
 TEST(OutletQueue, AClosedOneTakesNothing) {

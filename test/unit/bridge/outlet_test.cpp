@@ -1,11 +1,18 @@
 #include "bridge/outlet.h"
 
+#include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 
+#include "error_of.h"
 #include "gated_sink.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"
@@ -156,7 +163,7 @@ TEST(Outlet, WhereTheCallerCanWaitNothingIsLost) {
     Gate gate;
     gate.open();
     OutletOptions options;
-    options.caller_can_wait = true;
+    options.may_wait = [] { return true; };
     options.listener = [](const Loss&) { FAIL(); };
     Outlet outlet(endpoint_of(gate, blocking), options);
     for (std::uint64_t counter = 1; counter <= sets; ++counter) outlet.write(params(counter));
@@ -193,6 +200,181 @@ TEST(Outlet, OneThatIsDestroyedEndsLikewise) {
   }
   EXPECT_EQ(gate.params().size(), 1u);
   EXPECT_TRUE(gate.is_closed());
+}
+
+TEST(Outlet, IsOpenedInItsOwnThreadAndNothingIsLostMeanwhile) {
+  Gate gate;
+  gate.open();
+  gate.block_opening();
+  Outlet outlet(endpoint_of(gate, Blocking::storage), {});
+  ASSERT_TRUE(gate.was_tried(1));
+  outlet.write(constants());
+  for (std::uint64_t counter = 1; counter <= 100; ++counter) outlet.write(params(counter));
+  const auto opening = outlet.state();
+  EXPECT_FALSE(opening.is_open);
+  EXPECT_NE(opening.busy_since, 0);
+  EXPECT_EQ(outlet.queue()->queued, 101u);
+  gate.permit_opening();
+  ASSERT_TRUE(gate.has_written(101));
+  ASSERT_TRUE(outlet.close());
+  EXPECT_TRUE(outlet.state().is_open);
+  EXPECT_EQ(outlet.state().busy_since, 0);
+}
+
+TEST(Outlet, WhatCannotBeOpenedIsTriedAgain) {
+  Gate gate;
+  gate.open();
+  gate.set_opening_error("take.trk: it exists");
+  Outlet outlet(endpoint_of(gate, Blocking::storage), {});
+  ASSERT_TRUE(gate.was_tried(2)) << "though nothing is written";
+  EXPECT_EQ(outlet.state().cannot_open, "take.trk: it exists");
+  EXPECT_FALSE(outlet.state().is_open);
+  gate.set_opening_error("");
+  const auto end = std::chrono::steady_clock::now() + test::deadline;
+  while (!outlet.state().is_open && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_TRUE(outlet.state().is_open);
+  EXPECT_EQ(outlet.state().cannot_open, "");
+}
+
+TEST(Outlet, WhatIsWrittenAndRefusedMeanwhileIsCountedAndNotTriedForEveryRecord) {
+  Gate gate;
+  gate.open();
+  gate.set_opening_error("slot 7: nobody knows it");
+  gate.set_fault(transport::SinkFault{transport::SinkReason::gone});
+  Outlet outlet(endpoint_of(gate, Blocking::attaching), {});
+  ASSERT_TRUE(gate.was_tried(1));
+  for (std::uint64_t counter = 1; counter <= 50; ++counter) outlet.write(params(counter));
+  ASSERT_TRUE(outlet.close());
+  EXPECT_EQ(outlet.statistics().failed_sets, 50u);
+  EXPECT_EQ(outlet.state().cannot_open, "slot 7: nobody knows it") << "which says more than the fault of a write";
+}
+
+TEST(Outlet, WhereItMustBeOpenTheReasonIsThrown) {
+  Gate gate;
+  gate.set_opening_error("take.trk: it exists");
+  OutletOptions options;
+  options.must_open = true;
+  EXPECT_EQ(test::error_of<transport::TransportError>(
+                [&] { const Outlet outlet(endpoint_of(gate, Blocking::storage), options); }),
+            "take.trk: it exists");
+}
+
+/// Of a sink that does not answer any more.
+class StuckOutlet : public testing::Test {
+ protected:
+  ~StuckOutlet() override {
+    gate->open();
+    gate->permit_opening();
+    EXPECT_TRUE(gate->closes()) << "what was left to itself goes on";
+  }
+  static std::chrono::nanoseconds time_of(const std::function<void()>& act) {
+    const auto begin = std::chrono::steady_clock::now();
+    act();
+    return std::chrono::steady_clock::now() - begin;
+  }
+
+  const std::shared_ptr<Gate> gate = std::make_shared<Gate>();
+};
+
+TEST_F(StuckOutlet, IsNotWaitedForAndSaysWhatIsMissing) {
+  std::atomic<int> losses{0};
+  {
+    OutletOptions options;
+    options.listener = [&losses](const Loss&) { ++losses; };
+    Outlet outlet(endpoint_of(gate, Blocking::storage), options);
+    outlet.write(constants());
+    ASSERT_TRUE(gate->is_blocking());
+    for (std::uint64_t counter = 1; counter <= 7; ++counter) outlet.write(params(counter));
+    const auto closed = outlet.close();
+    ASSERT_FALSE(closed);
+    EXPECT_EQ(closed.error().reason, transport::SinkReason::no_answer);
+    EXPECT_EQ(outlet.unwritten(), 8u);
+    outlet.write(params(8));
+    EXPECT_TRUE(outlet.close()) << "again";
+    EXPECT_EQ(losses, 0) << "nobody is called any more";
+  }
+  gate->set_fault(transport::SinkFault{transport::SinkReason::system, {}, ENOSPC});
+  gate->open();
+  ASSERT_TRUE(gate->closes());
+  EXPECT_EQ(losses, 0) << "nobody is called any more";
+}
+
+TEST_F(StuckOutlet, GoesOnByItselfWhenItCan) {
+  {
+    Outlet outlet(endpoint_of(gate, Blocking::storage), {});
+    outlet.write(constants());
+    ASSERT_TRUE(gate->is_blocking());
+    for (std::uint64_t counter = 1; counter <= 7; ++counter) outlet.write(params(counter));
+  }
+  EXPECT_EQ(gate->count(), 0u);
+  gate->open();
+  ASSERT_TRUE(gate->closes());
+  EXPECT_EQ(gate->count(), 8u);
+}
+
+TEST_F(StuckOutlet, OneThatIsBeingOpenedIsNotWaitedForEither) {
+  gate->block_opening();
+  Outlet outlet(endpoint_of(gate, Blocking::storage), {});
+  ASSERT_TRUE(gate->was_tried(1));
+  outlet.write(params(1));
+  EXPECT_EQ(outlet.close().error().reason, transport::SinkReason::no_answer);
+  EXPECT_EQ(outlet.unwritten(), 1u);
+}
+
+TEST_F(StuckOutlet, SeveralAreWaitedForAtTheSameTime) {
+  constexpr int count = 6;
+  std::vector<std::shared_ptr<Gate>> gates;
+  std::vector<std::unique_ptr<Outlet>> outlets;
+  for (int i = 0; i < count; ++i) {
+    gates.push_back(std::make_shared<Gate>());
+    outlets.push_back(std::make_unique<Outlet>(endpoint_of(gates.back(), Blocking::storage), OutletOptions{}));
+    outlets.back()->write(params(1));
+    ASSERT_TRUE(gates.back()->is_blocking());
+  }
+  EXPECT_LT(time_of([&] {
+              for (const auto& outlet : outlets) outlet->finish();
+              for (const auto& outlet : outlets) EXPECT_FALSE(outlet->close());
+            }),
+            (count - 1) * Outlet::patience);
+  for (const auto& one : gates) {
+    one->open();
+    EXPECT_TRUE(one->closes());
+  }
+  gate->close();
+}
+
+TEST_F(StuckOutlet, OneThatOnlyNeedsTimeGetsIt) {
+  gate->open();
+  gate->set_delay(Outlet::patience / 5);
+  Outlet outlet(endpoint_of(gate, Blocking::storage), {});
+  for (std::uint64_t counter = 1; counter <= 15; ++counter) outlet.write(params(counter));
+  EXPECT_TRUE(outlet.close());
+  EXPECT_EQ(gate->count(), 15u);
+}
+
+TEST_F(StuckOutlet, WhatIsNotLiveIsWaitedForAsLongAsItMayBe) {
+  std::atomic<bool> may_wait{true};
+  OutletOptions options;
+  options.may_wait = [&may_wait] { return may_wait.load(); };
+  Outlet outlet(endpoint_of(gate, Blocking::storage), options);
+  outlet.write(params(1));
+  ASSERT_TRUE(gate->is_blocking());
+  auto closed = std::async(std::launch::async, [&outlet] { return outlet.close(); });
+  EXPECT_EQ(closed.wait_for(3 * Outlet::patience), std::future_status::timeout);
+  may_wait = false;
+  ASSERT_EQ(closed.wait_for(test::deadline), std::future_status::ready);
+  EXPECT_FALSE(closed.get());
+}
+
+TEST(Outlet, TheTimeOfAFieldGoesWithIt) {
+  const test::TemporaryDirectory directory;
+  Outlet outlet(endpoints::parse_sink("file:" + (directory / "%Y.trk")).value(), {});
+  outlet.write(constants());
+  outlet.write(params(1), 1'795'342'830'500'000'000);
+  ASSERT_TRUE(outlet.close());
+  EXPECT_THAT(outlet.name(), testing::HasSubstr("2026.trk"));
 }
 
 TEST(Outlet, TheResultOfClosingIsThatOfTheSink) {

@@ -9,6 +9,7 @@ namespace trk_bridge::file {
 namespace {
 
 using test::read_error;
+using test::write_error;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -69,9 +70,33 @@ TEST(FileSettings, DatesEndWhereATakeCanStillBePlayed) {
 
 TEST(FileSettings, FileWritingOptions) {
   const auto e = file_out("file:a?timecode=10:20:30:12:2&overwrite=1");
-  EXPECT_EQ(base::to_string(e.time_code), "10:20:30:12:2");
+  EXPECT_EQ(base::to_string(e.time_code.value()), "10:20:30:12:2");
   EXPECT_TRUE(e.overwrite);
-  EXPECT_FALSE(file_out("file:a").overwrite);
+  const auto defaults = file_out("file:a");
+  EXPECT_FALSE(defaults.overwrite || defaults.number || defaults.time_code);
+  EXPECT_EQ(defaults.rate, 50);
+  const auto other = file_out("file:a?number=1&rate=59.94");
+  EXPECT_TRUE(other.number);
+  EXPECT_EQ(other.rate, 59.94);
+  EXPECT_THAT(write_error("file:a?rate=201"), AllOf(HasSubstr("201"), HasSubstr("1 to 200")));
+  EXPECT_THAT(write_error("file:a?number=1&overwrite=1"), HasSubstr("must not be given with number=1"));
+}
+
+TEST(FileSettings, TheTimeInNamesOfRecordings) {
+  constexpr std::int64_t time = 1'795'342'830'500'000'000;  // date -u -d 2026-11-22T10:20:30 +%s
+  const auto name = [](const std::string& url) { return file_out(url).path.at(time); };
+  EXPECT_EQ(name("file:takes/crane-%Y%m%d-%H%M%S.trk"), "takes/crane-20261122-102030.trk");
+  EXPECT_EQ(name("file:%y%j.trk"), "26326.trk");
+  EXPECT_EQ(name("file:what%3F%20100%25Y.trk"), "what? 100%Y.trk") << "a % that was written as %25 begins nothing";
+  EXPECT_EQ(name("file:%d4-%D4-%41.trk"), "224-\xD4-A.trk") << "%d is the day, %D4 a byte";
+  EXPECT_TRUE(file_out("file:%Y").path.has_time());
+  EXPECT_FALSE(file_out("file:%25Y%41").path.has_time());
+  EXPECT_EQ(file_out("file:%Y%25.trk").path.shown(), "%Y%.trk");
+  for (const char* wrong : {"file:100%", "file:%00", "file:%Q", "file:%%", "file:%F"}) {
+    EXPECT_THAT(write_error(wrong), AllOf(HasSubstr(wrong + 5), HasSubstr("Y y m d j H M S"), HasSubstr("%25")));
+  }
+  EXPECT_EQ(file_in("file:%d4").path, "\xD4") << "what is read has a name already";
+  EXPECT_THAT(read_error("file:%Y"), HasSubstr("hexadecimal"));
 }
 
 }  // namespace

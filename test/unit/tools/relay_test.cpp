@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cmath>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -38,7 +39,7 @@ class RelayTest : public testing::Test {
   void add_file(const std::string& path) { add(endpoints::parse_sink("file:" + path).value()); }
   cli::ExitCode run(const transport::SinkForm& defaults = {}, bool source_can_wait = false) {
     feed.put(Event::ended);
-    FanOut sinks(err, source_can_wait);
+    FanOut sinks(err, source_can_wait ? [] { return true; } : std::function<bool()>());
     for (const auto& endpoint : to) sinks.add(endpoint, defaults);
     return relay(*feed.source(), sinks);
   }

@@ -1,14 +1,23 @@
 // The programs as their users run them.
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <thread>
+#include <vector>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "file/take.h"
 #include "program.h"
 #include "temporary_directory.h"
+#include "transport/socket.h"
+#include "trk_bridge/transport/source.h"
 #include "udp.h"
 #include "vectors.h"
 
@@ -112,6 +121,117 @@ TEST(TrkRelay, RecordsATakeThatIsTheSameAgain) {
   const auto before = file::read_take(original), after = file::read_take(copy);
   EXPECT_EQ(after.params, before.params);
   EXPECT_EQ(after.constants, before.constants);
+  EXPECT_EQ(after.time_code, before.time_code) << "which is the time of its first field";
+}
+
+/// A tracker on UDP, recorded.
+class TrkRecording : public testing::Test {
+ protected:
+  void start(const std::vector<std::string>& sinks) {
+    std::vector<std::string> words{TRK_TOOL, "relay", "udp://127.0.0.1:0"};
+    words.insert(words.end(), sinks.begin(), sinks.end());
+    relay.emplace(words);
+    port = port_of(*relay);
+    for (std::size_t i = 0; i < sinks.size(); ++i) ASSERT_TRUE(relay->err_line());
+    tracker.send(test::datagram(test::constants()), "127.0.0.1", port);
+  }
+  void send_fields(std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) tracker.send(test::datagram(test::params(++sent)), "127.0.0.1", port);
+  }
+  /// Waits until as many are in the file.
+  testing::AssertionResult has_fields(const std::string& file, std::uint64_t count) const {
+    const auto end = std::chrono::steady_clock::now() + test::deadline;
+    while (std::chrono::steady_clock::now() < end) {
+      try {
+        if (file::read_take(file).params.size() >= count) return testing::AssertionSuccess();
+      } catch (const transport::TransportError&) {
+        // It has not begun yet.
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return testing::AssertionFailure() << file << " has no " << count << " fields";
+  }
+
+  const test::TemporaryDirectory directory;
+  const std::string path = directory / "take.trk";
+  const test::PlainSocket tracker;
+  std::optional<Program> relay;
+  std::uint16_t port = 0;
+  std::uint64_t sent = 0;
+};
+
+TEST_F(TrkRecording, TwoSignalsInQuickSuccessionCostNothing) {
+  for (int round = 0; round < 12; ++round) {
+    ASSERT_NO_FATAL_FAILURE(start({"file:" + path + "?overwrite=1"}));
+    send_fields(20);
+    ASSERT_TRUE(has_fields(path + ".part", 20));
+    relay->signal(round % 2 == 0 ? SIGINT : SIGTERM);
+    std::this_thread::sleep_for(std::chrono::microseconds(250 * (round / 4)));
+    relay->signal(round % 3 == 0 ? SIGTERM : SIGINT);
+    const std::string said = relay->rest_of_err();
+    EXPECT_EQ(relay->wait(), 0) << said;
+    EXPECT_EQ(file::read_take(path).params.size(), 20u);
+    std::filesystem::remove(path);
+  }
+}
+
+TEST_F(TrkRecording, WhatWasWrittenBeforeItWasKilledIsRecovered) {
+  ASSERT_NO_FATAL_FAILURE(start({"file:" + path}));
+  send_fields(100);
+  ASSERT_TRUE(has_fields(path + ".part", 100));
+  relay->signal(SIGKILL);
+  EXPECT_EQ(relay->wait(), -SIGKILL);
+  ASSERT_NO_FATAL_FAILURE(start({"file:" + path}));
+  EXPECT_EQ(file::read_take(directory / "take.recovered.trk").params.size(), 100u);
+  send_fields(1);
+  ASSERT_TRUE(has_fields(path + ".part", 1));
+  relay->signal(SIGINT);
+  EXPECT_THAT(relay->rest_of_err(), HasSubstr("recovered from an interrupted recording: "));
+  EXPECT_EQ(relay->wait(), 0);
+}
+
+TEST_F(TrkRecording, ANameThatCannotBeOpenedEndsItAtOnce) {
+  test::write_text(path, "precious");
+  const std::string other = directory / "other.trk";
+  Program program({TRK_TOOL, "relay", "udp://127.0.0.1:0", "file:" + other, "file:" + path});
+  EXPECT_THAT(program.rest_of_err(), HasSubstr("trk: error: " + path + ": cannot be written: it exists"));
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_FALSE(std::filesystem::exists(other + ".part"));
+}
+
+TEST_F(TrkRecording, ClosedStandardDescriptorsDoNotBecomeTheFile) {
+  const std::string take = test::data_path("field/takes/euler.trk");
+  Program program(
+      {"/bin/sh", "-c",
+       "exec " + std::string(TRK_TOOL) + " relay 'file:" + take + "?speed=0' 'file:" + path + "' 0<&- 1>&- 2>&-"});
+  program.rest_of_err();
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_EQ(file::read_take(path).params, file::read_take(take).params);
+}
+
+TEST_F(TrkRecording, AFifoThatNobodyReadsAnyMoreHoldsUpNobody) {
+  const std::string fifo = directory / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  const transport::Descriptor reader(::open(fifo.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  const test::PlainSocket receiver;
+  ASSERT_NO_FATAL_FAILURE(
+      start({"file:" + fifo, "udp://127.0.0.1:" + std::to_string(receiver.port()) + "?constants_period=0"}));
+  // More than the pipe takes.
+  for (int i = 0; i < 2000; ++i) {
+    send_fields(1);
+    std::optional<std::string> datagram;
+    do {
+      datagram = receiver.receive();
+      ASSERT_TRUE(datagram) << "set " << i;
+    } while (datagram->at(6) != 'P');
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  relay->signal(SIGINT);
+  const std::string said = relay->rest_of_err();
+  EXPECT_EQ(relay->wait(), 1);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+  EXPECT_THAT(said, testing::ContainsRegex("error: file .*fifo: it does not answer, and was not waited for; [0-9]+ "
+                                           "records that waited are lost"));
 }
 
 TEST(TrkRelay, ClosesAFileInOrderOnSigterm) {

@@ -56,6 +56,26 @@ TEST(Sink, CountsWhatWentOutAndWhatDidNot) {
   EXPECT_EQ(statistics.errors, 2u);
 }
 
+TEST(Sink, KnowsTheTimeOfTheParametersThatItWrites) {
+  class Timed final : public Sink {
+   public:
+    std::string name() const override { return "timed"; }
+    std::int64_t written = -1;
+
+   private:
+    Written put(const wire::CameraParams&) override {
+      written = time();
+      return {};
+    }
+    Written put(const wire::CameraConstants&) override { return {}; }
+    Written finish() override { return {}; }
+  } sink;
+  ASSERT_TRUE(sink.write(test::params(1), 1234));
+  EXPECT_EQ(sink.written, 1234);
+  ASSERT_TRUE(sink.write(test::params(2)));
+  EXPECT_EQ(sink.written, 0) << "not known";
+}
+
 TEST(Sink, TheSameConstantsAgainAreWrittenAgain) {
   Scripted sink;
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(sink.write(test::constants(720)));

@@ -1,0 +1,149 @@
+#include <cerrno>
+#include <chrono>
+#include <mutex>
+#include <utility>
+
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "scheme.h"
+#include "take_writer.h"
+#include "trk_bridge/transport/source.h"
+
+namespace trk_bridge::file {
+namespace {
+
+using std::chrono::steady_clock;
+using transport::SinkFault;
+using transport::SinkReason;
+using transport::TransportError;
+using transport::Written;
+
+/// How often writes try to open what could not be opened.
+constexpr std::chrono::seconds retry_period{1};
+constexpr std::int64_t day = 86'400'000'000'000;  // ns
+
+class FileSink final : public transport::Sink {
+ public:
+  explicit FileSink(const SinkSettings& settings) : settings_(settings), name_("file " + settings.path.shown()) {}
+
+  std::string name() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return name_;
+  }
+  std::string notice() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return waits_ ? describe(SinkFault{SinkReason::no_reader}) + " yet" : notice_;
+  }
+
+ private:
+  void get_ready() override;
+  Written put(const wire::CameraParams&) override;
+  Written put(const wire::CameraConstants& constants) override { return writer_.write(constants); }
+  Written finish() override;
+
+  Written open(std::int64_t time);
+  Written open_when_due(std::int64_t time);
+  /// Publishes what dead writers left, and notes it for a person.
+  void recover();
+
+  const SinkSettings settings_;
+  TakeWriter writer_;
+  Written opened_;  // the last attempt
+  steady_clock::time_point next_attempt_{};
+  mutable std::mutex mutex_;  // of what follows
+  std::string name_;
+  std::string notice_;
+  bool waits_ = false;  // for a reader
+};
+
+void FileSink::recover() {
+  std::string notice;
+  for (const auto& name : recover_parts(settings_.path, settings_.number)) {
+    notice += (notice.empty() ? "recovered from an interrupted recording: " : ", ") + name;
+  }
+  if (notice.empty()) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  notice_ = notice;
+}
+
+Written FileSink::open(std::int64_t time) {
+  recover();
+  const std::string path = settings_.path.at(time);
+  auto file = path.empty()       ? OpenedFile(tl::unexpected(SinkFault{SinkReason::system, {}, ENAMETOOLONG}))
+              : settings_.number ? open_next_number(path)
+                                 : PartFile::open(path, {settings_.overwrite, Fifo::allowed});
+  if (!file) return tl::unexpected(file.error());
+  const std::string name = "file " + file->path();
+  if (auto begun = writer_.open(*std::move(file)); !begun) return begun;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  name_ = name;
+  waits_ = false;
+  return {};
+}
+
+Written FileSink::open_when_due(std::int64_t time) {
+  const auto now = steady_clock::now();
+  if (!opened_ && now < next_attempt_) return opened_;
+  next_attempt_ = now + retry_period;
+  opened_ = open(time);
+  return opened_;
+}
+
+void FileSink::get_ready() {
+  if (writer_.is_open()) return;
+  const std::int64_t now = base::wall_now();
+  if (settings_.path.has_time()) {
+    // The name is that of the first field: what can be known before is whether its directory takes files.
+    recover();
+    const std::string directory = directory_of(settings_.path.at(now));
+    opened_ = {};
+    if (::access(directory.c_str(), W_OK | X_OK) != 0) {
+      opened_ = tl::unexpected(SinkFault{SinkReason::system, {}, errno});
+    }
+  } else {
+    opened_ = open(now);
+    next_attempt_ = steady_clock::now() + retry_period;
+  }
+  if (opened_) return;
+  if (opened_.error().reason == SinkReason::no_reader) {
+    // It may come later.
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waits_ = true;
+    return;
+  }
+  throw TransportError(settings_.path.shown() + ": cannot be written: " + describe(opened_.error()));
+}
+
+Written FileSink::put(const wire::CameraParams& params) {
+  if (!writer_.has_constants()) return tl::unexpected(SinkFault{SinkReason::no_constants});
+  const std::int64_t time = this->time() > 0 ? this->time() : base::wall_now();
+  if (!writer_.is_open()) {
+    if (auto opened = open_when_due(time); !opened) return opened;
+  }
+  if (!writer_.has_fields()) {
+    // Every rate that the settings allow has a code for every time of the day.
+    writer_.set_time_code(settings_.time_code.value_or(*base::time_code_at(time % day, settings_.rate)));
+  }
+  return writer_.write(params);
+}
+
+Written FileSink::finish() {
+  if (!writer_.is_open()) {
+    if (!opened_) return opened_;
+    if (!writer_.has_constants()) return tl::unexpected(SinkFault{SinkReason::no_constants});
+    return {};
+  }
+  if (!writer_.has_fields()) {
+    writer_.set_time_code(settings_.time_code.value_or(*base::time_code_at(base::wall_now() % day, settings_.rate)));
+  }
+  return writer_.close();
+}
+
+}  // namespace
+
+std::unique_ptr<transport::Sink> open_sink(const SinkSettings& settings) {
+  return std::make_unique<FileSink>(settings);
+}
+
+}  // namespace trk_bridge::file
