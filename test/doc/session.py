@@ -89,7 +89,7 @@ class Command:
 class Terminals:
     """The terminals of a reader of one page: what runs in the background, and an environment for all of it."""
 
-    PATIENCE = 60  # s, for a command to end or to print what it is waited for
+    PATIENCE = 600  # s, for a command to end or to print what it is waited for, also on a busy machine
     LEAVING = 10  # s, for what commands have started to end with them
 
     def __init__(self, environment, folder, logs):
