@@ -176,7 +176,7 @@ class Recording {
     errno = 0;
     try {
       action();
-    } catch (const rosbag::BagIOException& error) {
+    } catch (const rosbag::BagException&) {
       if (errno == 0) throw;
       throw rosbag::BagIOException(std::generic_category().message(errno));
     }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <typeinfo>
 #include <utility>
 #include <variant>
 
@@ -52,11 +53,11 @@ std::optional<OutletReason> loss_of(Pushed pushed) noexcept {
   return std::nullopt;
 }
 
-/// A nodelet's library is unloaded with it, and an abandoned thread still runs code of it.
-void keep_code_loaded() noexcept {
-  static const char here = 0;
+/// A nodelet's libraries are unloaded with it, and an abandoned thread still runs code of them: that which has this
+/// address is not unloaded any more, nor are those that it needs.
+void keep_library_of(const void* address) noexcept {
   Dl_info library{};
-  if (::dladdr(&here, &library) == 0 || library.dli_fname == nullptr) return;
+  if (::dladdr(address, &library) == 0 || library.dli_fname == nullptr) return;
   ::dlopen(library.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
 }
 
@@ -106,7 +107,7 @@ class Outlet::Work {
   std::int64_t busy_since() const noexcept { return busy_since_.load(); }
   std::uint64_t unwritten() const { return queue_ ? queue_->statistics().queued + (has_record_.load() ? 1 : 0) : 0; }
   OutletState state() const {
-    OutletState state{writer_.name(), writer_.notice(), false, {}, busy_since()};
+    OutletState state{writer_.sink().name(), writer_.sink().notice(), false, {}, busy_since()};
     const std::lock_guard<std::mutex> lock(mutex_);
     state.is_open = is_open_;
     state.cannot_open = cannot_open_;
@@ -197,6 +198,7 @@ Outlet::Outlet(const transport::SinkEndpoint& endpoint, const OutletOptions& opt
     : url_(endpoint.url),
       form_(transport::with_defaults(endpoint.form, options.defaults)),
       may_wait_(options.may_wait),
+      every_set_counts_(endpoint.blocking == Blocking::storage),
       work_(std::make_shared<Work>(endpoint, form_, options)) {
   if (work_->queue()) thread_ = std::thread([work = work_] { work->run(); });
 }
@@ -228,8 +230,9 @@ Written Outlet::close() {
     const auto now = base::steady_now();
     if (may_wait_ && may_wait_()) begin = now;
     const auto busy_since = work_->busy_since();
-    if (busy_since == 0) continue;
-    if (std::chrono::nanoseconds(now - std::max(begin, busy_since)) > patience) {
+    if (every_set_counts_ && busy_since == 0) continue;
+    const auto since = every_set_counts_ ? std::max(begin, busy_since) : begin;
+    if (std::chrono::nanoseconds(now - since) > patience) {
       abandon();
       return tl::unexpected(SinkFault{SinkReason::no_answer});
     }
@@ -240,14 +243,16 @@ Written Outlet::close() {
 
 void Outlet::abandon() {
   work_->drop_listener();
-  keep_code_loaded();
+  static const char here = 0;
+  keep_library_of(&here);
+  keep_library_of(&typeid(work_->writer().sink()));
   thread_.detach();
   is_abandoned_ = true;
 }
 
 OutletStatistics Outlet::statistics() const noexcept { return work_->writer().statistics(); }
 OutletState Outlet::state() const { return work_->state(); }
-std::string Outlet::name() const { return work_->writer().name(); }
+std::string Outlet::name() const { return work_->writer().sink().name(); }
 
 std::optional<OutletQueueStatistics> Outlet::queue() const {
   if (!work_->queue()) return std::nullopt;

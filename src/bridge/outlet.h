@@ -54,9 +54,10 @@ class Outlet {
   void write(const wire::CameraParams&, std::int64_t time = 0);
   /// From now on nothing is taken. Does not wait: several outlets that are to be closed end at the same time.
   void finish();
-  /// Writes what is queued, then ends the sink in order. Where an open, write or close takes longer than `patience`
-  /// (and OutletOptions::may_wait does not say otherwise), it is left to itself: no_answer, and unwritten() says how
-  /// much is missing. Its thread goes on for as long as the program runs, and calls nobody. Closing again does nothing.
+  /// Writes what is queued, then ends the sink in order. Where a recording's open, write or close, or all that is left
+  /// to do for a segment, takes longer than `patience` (and OutletOptions::may_wait does not say otherwise), it is left
+  /// to itself: no_answer, and unwritten() says how much is missing. Its thread goes on for as long as the program
+  /// runs, and calls nobody. Closing again does nothing.
   [[nodiscard]] transport::Written close();
 
   OutletStatistics statistics() const noexcept;
@@ -84,6 +85,7 @@ class Outlet {
   const std::string url_;
   const transport::SinkForm form_;
   const std::function<bool()> may_wait_;
+  const bool every_set_counts_;
   const std::shared_ptr<Work> work_;  // the thread may outlive the outlet
   std::thread thread_;
   std::int64_t finished_ = 0;  // steady clock, ns: when it was asked to end; 0: it was not

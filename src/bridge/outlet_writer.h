@@ -86,9 +86,8 @@ class OutletWriter {
 
   /// A consistent snapshot. Any thread.
   OutletStatistics statistics() const noexcept { return published_.load(); }
-  /// Of the sink. Any thread.
-  std::string name() const { return sink_->name(); }
-  std::string notice() const { return sink_->notice(); }
+  /// For what any thread may ask it.
+  const transport::Sink& sink() const noexcept { return *sink_; }
 
  private:
   struct Camera {

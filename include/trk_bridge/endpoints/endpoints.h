@@ -15,7 +15,7 @@ namespace trk_bridge::endpoints {
 /// known ones for that scheme and direction. `%XX` in paths and values stands for a byte (needed for `?`, `&`, `%`).
 tl::expected<transport::SourceEndpoint, std::string> parse_source(std::string_view url);
 /// Reads a URL to write to, likewise. `format=` (words with commas or + between them), `preset=` and `id=` are options
-/// of every scheme.
+/// of every scheme. In the path of a recording, %Y and others stand for the time (file/recording_name.h).
 tl::expected<transport::SinkEndpoint, std::string> parse_sink(std::string_view url);
 
 /// Reads a URL and opens it: a wrong URL is a TransportError, too. `field_rate` as in SourceEndpoint::open.

@@ -354,6 +354,16 @@ TEST_F(StuckOutlet, OneThatOnlyNeedsTimeGetsIt) {
   EXPECT_EQ(gate->count(), 15u);
 }
 
+TEST_F(StuckOutlet, OfASegmentOldSetsAreNotWorthAsMuch) {
+  gate->open();
+  gate->set_delay(Outlet::patience / 5);
+  Outlet outlet(endpoint_of(gate, Blocking::attaching), {});
+  for (std::uint64_t counter = 1; counter <= 60; ++counter) outlet.write(params(counter));
+  EXPECT_FALSE(outlet.close());
+  EXPECT_LT(gate->count(), 60u);
+  gate->set_delay(std::chrono::milliseconds(0));
+}
+
 TEST_F(StuckOutlet, WhatIsNotLiveIsWaitedForAsLongAsItMayBe) {
   std::atomic<bool> may_wait{true};
   OutletOptions options;

@@ -201,9 +201,11 @@ TEST_F(TrkRecording, ANameThatCannotBeOpenedEndsItAtOnce) {
 
 TEST_F(TrkRecording, ClosedStandardDescriptorsDoNotBecomeTheFile) {
   const std::string take = test::data_path("field/takes/euler.trk");
-  Program program(
-      {"/bin/sh", "-c",
-       "exec " + std::string(TRK_TOOL) + " relay 'file:" + take + "?speed=0' 'file:" + path + "' 0<&- 1>&- 2>&-"});
+  const test::PlainSocket receiver;
+  // The third descriptor that is opened.
+  Program program({"/bin/sh", "-c",
+                   "exec " + std::string(TRK_TOOL) + " relay 'file:" + take + "?speed=0' 'udp://127.0.0.1:" +
+                       std::to_string(receiver.port()) + "' 'file:" + path + "' 0<&- 1>&- 2>&-"});
   program.rest_of_err();
   EXPECT_EQ(program.wait(), 0);
   EXPECT_EQ(file::read_take(path).params, file::read_take(take).params);

@@ -1,0 +1,41 @@
+// A sink that is left to itself does not run code that was unloaded.
+#include <string>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "deadline.h"
+#include "temporary_directory.h"
+
+namespace trk_bridge::test {
+namespace {
+
+TEST(OutletUnload, ASinkThatIsLeftToItselfGoesOnWhenItsLibraryIsUnloaded) {
+  const TemporaryDirectory directory;
+  const std::string fifo = directory / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  const int reader = ::open(fifo.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  void* module = ::dlopen(OUTLET_MODULE, RTLD_NOW | RTLD_LOCAL);
+  ASSERT_NE(module, nullptr) << ::dlerror();
+  auto* leave_stuck = reinterpret_cast<bool (*)(const char*)>(::dlsym(module, "leave_stuck"));
+  ASSERT_TRUE(leave_stuck != nullptr && leave_stuck(fifo.c_str()));
+  ASSERT_EQ(::dlclose(module), 0);
+  // Whoever reads it now gets everything, and then the end.
+  std::string text;
+  pollfd watched{reader, POLLIN, 0};
+  while (::poll(&watched, 1, static_cast<int>(std::chrono::milliseconds(deadline).count())) == 1) {
+    char chunk[4096];
+    const ssize_t got = ::read(reader, chunk, sizeof chunk);
+    if (got <= 0) break;
+    text.append(chunk, static_cast<std::size_t>(got));
+  }
+  ::close(reader);
+  EXPECT_NE(text.find(" 2000\n"), std::string::npos) << text.size() << " bytes came";
+}
+
+}  // namespace
+}  // namespace trk_bridge::test
