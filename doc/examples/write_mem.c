@@ -1,7 +1,7 @@
 /* A tracker of its own: a camera that pans, written to shared memory 50 times a second: write_mem SLOT SETS. Ends after
  * SETS sets of parameters, or with Ctrl-C. */
 #define _POSIX_C_SOURCE 199309L
-#include <trk/trk_mem.h>
+#include "trk_mem.h"
 
 #include <signal.h>
 #include <stdio.h>

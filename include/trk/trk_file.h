@@ -2,7 +2,7 @@
 #ifndef TRK_FILE_H
 #define TRK_FILE_H
 
-#include <trk/trk_struct.h>
+#include "trk_struct.h"
 
 #ifdef __cplusplus
 extern "C" {

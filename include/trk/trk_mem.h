@@ -2,7 +2,7 @@
 #ifndef TRK_MEM_H
 #define TRK_MEM_H
 
-#include <trk/trk_struct.h>
+#include "trk_struct.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -10,14 +10,14 @@ extern "C" {
 
 /* Flags of trkMemConfigure. One kind of memory, ORed with trkMemRecreate or not. */
 enum {
-  trkMemDefault = 0x0, /* the system's default kind */
-  trkMemSysV = 0x1,    /* System V shared memory */
-  trkMemArena = 0x2,   /* a shared arena on IRIX; the default kind on every other system */
-  trkMemRecreate = 0x4 /* a handle left alone with its memory goes on in a fresh one with the same contents */
+  trkMemDefault = 0x0,  /* the system's default kind */
+  trkMemSysV = 0x1,     /* System V shared memory */
+  trkMemArena = 0x2,    /* a shared arena on IRIX; the default kind on every other system */
+  trkMemRecreate = 0x10 /* a handle left alone with its memory goes on in a fresh one with the same contents */
 };
 
-/* Options of all following calls of trkMemOpen. trkFailed for unknown flags and for two kinds at once. */
-TRK_PUBLIC trkError trkMemConfigure(unsigned flags);
+/* Options of all following calls of trkMemOpen. Unknown flags are ignored. */
+TRK_PUBLIC void trkMemConfigure(unsigned flags);
 
 /* Makes the shared memory of a slot (0 to 61) or attaches to it. trkInvalidVersion when the memory there is not trk's:
  * it is left as it is. New memory has the identified records of 64-bit programs, which every program in use can attach

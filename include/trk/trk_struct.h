@@ -1,12 +1,14 @@
 /* Camera parameters and constants, format options, errors, and their text (document, sections 3, 5 and 7).
  *
- * The interface works from C99 and C++. Every function may be called from any thread; calls on one handle take turns. A
- * null pointer gives trkFailed, a handle that is not open, or is of another kind or direction, trkInvalidHandle.
+ * These headers are for libtrk: structures as in the document. Those of the same names in trk_identified are for
+ * libtrk_identified: a camera number comes first in the structures, and there are some more functions. A program picks
+ * one by its include path and its library; it cannot mix them.
+ *
+ * The interface works from C89 and C++98. Every function may be called from any thread; calls on one handle take turns.
+ * A null pointer gives trkFailed, a handle that is not open, or is of another kind or direction, trkInvalidHandle.
  * With ONLY_READ defined the functions that write are not declared. */
 #ifndef TRK_STRUCT_H
 #define TRK_STRUCT_H
-
-#include <stddef.h>
 
 #if defined(__GNUC__)
 #define TRK_PUBLIC __attribute__((visibility("default")))
@@ -20,6 +22,9 @@ extern "C" {
 
 /* Constants of the camera: pixels and millimetres. */
 typedef struct {
+#ifdef TRK_IDENTIFIED
+  unsigned id; /* of the camera; 0: none */
+#endif
   int imageWidth, imageHeight;
   int blankLeft, blankRight, blankTop, blankBottom;
   double chipWidth, chipHeight, fakeChipWidth, fakeChipHeight;
@@ -35,6 +40,9 @@ typedef union {
 
 /* One set of camera parameters, in the format that `format` says. */
 typedef struct {
+#ifdef TRK_IDENTIFIED
+  unsigned id; /* of the camera; 0: none */
+#endif
   unsigned format;
   trkTransform t;
   double fov;              /* image distance in mm, or an angle in degrees */
@@ -84,27 +92,27 @@ typedef void* trkHandle;
 TRK_PUBLIC const char* trkErrorMessage(trkError error);
 
 /* Room that is enough for any text of the functions below, its NUL included. */
-enum { trkStringSize = 1024 };
+enum { trkStringSize = 4096 };
 
 /* The text of a record as it stands in files and ASCII datagrams; numbers are the shortest that read back to the same
- * value, with a decimal point whatever the locale. `size` is the buffer's; a text that does not fit gives trkFailed and
- * an empty string, as does a number that is not finite. */
-TRK_PUBLIC trkError trkParamsToString(const trkCameraParams* params, char* buffer, size_t size);
+ * value, with a decimal point whatever the locale. Gives its length; 0, and an empty text, for a number that is not
+ * finite and for a null pointer. The buffer has trkStringSize bytes. */
+TRK_PUBLIC int trkParamsToString(const trkCameraParams* params, char* buffer);
 /* The same of constants. */
-TRK_PUBLIC trkError trkConstantsToString(const trkCameraConstants* constants, char* buffer, size_t size);
+TRK_PUBLIC int trkConstantsToString(const trkCameraConstants* constants, char* buffer);
 
-/* The record of a text: trkInvalidVersion, and the record left as it was, when the text is not sound. A leading camera
- * number "I<n>" is read over. */
-TRK_PUBLIC trkError trkStringToParams(const char* string, trkCameraParams* params);
+/* The record of a text: 1 when it was understood, else 0, and the record is left as it was. */
+TRK_PUBLIC int trkStringToParams(const char* string, trkCameraParams* params);
 /* The same of constants. */
-TRK_PUBLIC trkError trkStringToConstants(const char* string, trkCameraConstants* constants);
+TRK_PUBLIC int trkStringToConstants(const char* string, trkCameraConstants* constants);
 
-/* The identifiers of a format mask that matter for it, with single spaces between; bits without a name are left out. */
-TRK_PUBLIC trkError trkFormatToString(unsigned format, char* buffer, size_t size);
+/* The identifiers of a format mask that matter for it, with single spaces between; bits without a name are left out.
+ * Gives the length of the text. The buffer has trkStringSize bytes. */
+TRK_PUBLIC int trkFormatToString(unsigned format, char* buffer);
 
 /* The mask that identifiers name, in any case and order, separated by white space; none is 0. Of two opposite ones the
- * last counts. trkFailed, and the mask left as it was, for an unknown word. */
-TRK_PUBLIC trkError trkStringToFormat(const char* string, unsigned* format);
+ * last counts. 1 when all were understood, else 0, and the mask is left as it was. */
+TRK_PUBLIC int trkStringToFormat(const char* string, unsigned* format);
 
 #ifdef __cplusplus
 }

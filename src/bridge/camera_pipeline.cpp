@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <variant>
 
 #include "trk_bridge/wire/fields.h"
@@ -15,24 +14,6 @@ using camera::ConstantsChange;
 
 std::chrono::nanoseconds nanoseconds_of(double seconds) {
   return std::chrono::nanoseconds(std::llround(seconds * 1e9));
-}
-
-/// For base::Sequence: of all that a record says. 64 bits of FNV-1a, a number at a time.
-std::uint64_t fingerprint_of(const wire::CameraParams& params) noexcept {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  const auto add = [&hash](const wire::Field&, const auto& number) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &number, sizeof number);
-    hash = (hash ^ bits) * 0x100000001b3U;
-    hash ^= hash >> 32U;
-  };
-  if (has(params.format, wire::euler)) {
-    wire::for_each_euler_field(add, params.euler);
-  } else {
-    for (const double& number : params.matrix) add({}, number);
-  }
-  wire::for_each_params_field(add, params);
-  return hash;
 }
 
 }  // namespace
@@ -146,7 +127,7 @@ bool CameraPipeline::is_new(const wire::CameraParams& params, const transport::S
   ++statistics_.params;
   statistics_.last_id = params.id;
   statistics_.last_format = params.format;
-  const bool accepted = !sample.has_counter || base::is_new(sequence_.judge(params.counter, fingerprint_of(params)));
+  const bool accepted = !sample.has_counter || base::is_new(sequence_.judge(params.counter, wire::fingerprint(params)));
   if (!sample.has_counter) ++statistics_.without_counter;
   statistics_.sequence = sequence_.counts();
   statistics_.sequence.accepted += statistics_.without_counter;

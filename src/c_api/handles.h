@@ -1,16 +1,19 @@
 // Handles of open transfers: numbers, never addresses, so that anything a program passes can be looked up safely.
 #pragma once
 
-#include <trk/trk_struct.h>
-
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "trk_struct.h"
+#include "turn_lock.h"
 
 namespace trk_bridge::c_api {
 
@@ -24,74 +27,131 @@ trkError guarded(Call&& call) noexcept {
   }
 }
 
-/// A value that no other handle of this process has or had.
-inline trkHandle next_handle() noexcept {
+/// A number that no other handle of this process has or had.
+inline std::uint64_t next_serial() noexcept {
   // Far from small integers, which programs pass by mistake.
-  static std::atomic<std::uintptr_t> last{0x74726B00};
-  return reinterpret_cast<trkHandle>(last.fetch_add(0x10) + 0x10);
+  static std::atomic<std::uint64_t> last{0x74726B};
+  return ++last;
 }
 
-/// The open transfers of one kind. Any thread; calls on one handle take turns, calls on different ones do not.
+/// The open transfers of one kind. Any thread; calls on one handle take turns, calls on different ones do not. Finding
+/// one takes no lock but its own.
 template <typename Transfer>
 class Handles {
  public:
+  /// Throws std::bad_alloc also where `capacity` are open.
   template <typename... Arguments>
   trkHandle open(Arguments&&... arguments) {
-    auto entry = std::make_shared<Entry>();
-    entry->transfer.emplace(std::forward<Arguments>(arguments)...);
-    const trkHandle handle = next_handle();
-    const std::lock_guard lock(mutex_);
-    entries_.emplace(handle, std::move(entry));
+    const std::size_t index = take_place();
+    Entry& entry = *entries_[index].load();
+    entry.turn.wait();
+    entry.transfer.emplace(std::forward<Arguments>(arguments)...);
+    entry.handle = reinterpret_cast<trkHandle>(static_cast<std::uintptr_t>(next_serial() << 16U | index << 4U));
+    const trkHandle handle = entry.handle;
+    entry.turn.unlock();
     return handle;
   }
 
-  /// `use(transfer)`, or trkInvalidHandle.
+  /// `use(transfer)`, or trkInvalidHandle. trkFailed in a signal handler that interrupted a call on this handle.
   template <typename Use>
   trkError with(trkHandle handle, Use&& use) {
-    const auto entry = find(handle);
-    if (!entry) return trkInvalidHandle;
-    const std::lock_guard turn(entry->turn);
-    return entry->transfer ? use(*entry->transfer) : trkInvalidHandle;
+    Entry* const entry = find(handle);
+    if (entry == nullptr) return trkInvalidHandle;
+    if (!entry->turn.wait()) return trkFailed;
+    const Unlock unlock{entry->turn};
+    return entry->handle == handle ? use(*entry->transfer) : trkInvalidHandle;
   }
 
   /// `end(transfer)`, after which the handle is invalid.
   template <typename End>
   trkError close(trkHandle handle, End&& end) {
-    std::shared_ptr<Entry> entry;
+    Entry* const entry = find(handle);
+    if (entry == nullptr) return trkInvalidHandle;
+    if (!entry->turn.wait()) return trkFailed;
+    trkError ended = trkInvalidHandle;
     {
-      const std::lock_guard lock(mutex_);
-      const auto found = entries_.find(handle);
-      if (found == entries_.end()) return trkInvalidHandle;
-      entry = std::move(found->second);
-      entries_.erase(found);
+      const Unlock unlock{entry->turn};
+      if (entry->handle != handle) return trkInvalidHandle;
+      ended = end(*entry->transfer);
+      entry->clear();
     }
-    const std::lock_guard turn(entry->turn);
-    const trkError ended = end(*entry->transfer);
-    entry->transfer.reset();
+    give_back(index_of(handle));
     return ended;
   }
 
-  std::vector<trkHandle> all() const {
+  /// Every open handle.
+  std::vector<trkHandle> all() {
     std::vector<trkHandle> handles;
-    const std::lock_guard lock(mutex_);
-    for (const auto& [handle, entry] : entries_) handles.push_back(handle);
+    for (auto& place : entries_) {
+      Entry* const entry = place.load();
+      if (entry == nullptr || !entry->turn.wait()) continue;
+      const Unlock unlock{entry->turn};
+      if (entry->transfer) handles.push_back(entry->handle);
+    }
     return handles;
   }
 
- private:
-  struct Entry {
-    std::mutex turn;
-    std::optional<Transfer> transfer;  // none once it is closed, for a call that waited for its turn
-  };
-
-  std::shared_ptr<Entry> find(trkHandle handle) const {
-    const std::lock_guard lock(mutex_);
-    const auto found = entries_.find(handle);
-    return found == entries_.end() ? nullptr : found->second;
+  /// At the end of the process: `end(transfer)` for all that are open, those included whose call was interrupted by the
+  /// signal handler that ends it. What another thread still uses after a second is left.
+  template <typename End>
+  void close_all_at_exit(End&& end) noexcept {
+    for (auto& place : entries_) {
+      Entry* const entry = place.load();
+      if (entry == nullptr) continue;
+      const bool is_interrupted = entry->turn.is_mine();
+      if (!is_interrupted && !entry->turn.wait_for(std::chrono::seconds(1))) continue;
+      if (entry->transfer) guarded([&] { return end(*entry->transfer); });
+      entry->clear();
+      entry->turn.unlock();
+    }
   }
 
-  mutable std::mutex mutex_;
-  std::unordered_map<trkHandle, std::shared_ptr<Entry>> entries_;
+ private:
+  static constexpr std::size_t capacity = 4096;
+
+  struct Entry {
+    TurnLock turn;
+    trkHandle handle = nullptr;  // null while it is free
+    std::optional<Transfer> transfer;
+
+    void clear() {
+      handle = nullptr;
+      transfer.reset();
+    }
+  };
+
+  struct Unlock {
+    TurnLock& turn;
+    ~Unlock() { turn.unlock(); }
+  };
+
+  static std::size_t index_of(trkHandle handle) noexcept {
+    return (reinterpret_cast<std::uintptr_t>(handle) >> 4U) % capacity;
+  }
+  Entry* find(trkHandle handle) noexcept {
+    return handle == nullptr ? nullptr : entries_[index_of(handle)].load(std::memory_order_acquire);
+  }
+
+  std::size_t take_place() {
+    const std::lock_guard lock(mutex_);
+    if (!free_.empty()) {
+      const std::size_t index = free_.back();
+      free_.pop_back();
+      return index;
+    }
+    if (used_ == capacity) throw std::bad_alloc();
+    entries_[used_] = new Entry;
+    return used_++;
+  }
+  void give_back(std::size_t index) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(index);
+  }
+
+  std::array<std::atomic<Entry*>, capacity> entries_{};  // never freed, used again
+  std::mutex mutex_;                                     // of the next two
+  std::vector<std::size_t> free_;
+  std::size_t used_ = 0;
 };
 
 /// The handles of a kind, alive until the process ends: functions registered with atexit use them.

@@ -1,7 +1,6 @@
-// The document's C structures <-> the records of `wire`. The C interface has no camera id.
+// The document's C structures <-> the records of `wire`. Only libtrk_identified's structures have a camera id; without
+// one, records have id 0.
 #pragma once
-
-#include <trk/trk_struct.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -9,13 +8,18 @@
 #include "trk_bridge/wire/fields.h"
 #include "trk_bridge/wire/format.h"
 #include "trk_bridge/wire/record.h"
+#include "trk_struct.h"
 
 namespace trk_bridge::c_api {
 
 /// The fields of trkCameraParams, the transform excepted, under the names of the records.
 struct NamedParams {
   trkCameraParams& c;
-  std::uint32_t id = 0;  // the C interface has none
+#ifdef TRK_IDENTIFIED
+  unsigned& id = c.id;
+#else
+  std::uint32_t id = 0;
+#endif
   unsigned& format = c.format;
   double& fov = c.fov;
   double& center_x = c.centerX;
@@ -30,7 +34,11 @@ struct NamedParams {
 /// The fields of trkCameraConstants under the names of the records.
 struct NamedConstants {
   trkCameraConstants& c;
-  std::uint32_t id = 0;  // the C interface has none
+#ifdef TRK_IDENTIFIED
+  unsigned& id = c.id;
+#else
+  std::uint32_t id = 0;
+#endif
   int& image_width = c.imageWidth;
   int& image_height = c.imageHeight;
   int& blank_left = c.blankLeft;
@@ -56,7 +64,7 @@ inline trkCameraParams to_c(const wire::CameraParams& p) noexcept {
   return c;
 }
 
-/// The way back; the id is 0.
+/// The way back.
 inline wire::CameraParams from_c(trkCameraParams c) noexcept {
   wire::CameraParams p;
   NamedParams named{c};
@@ -76,7 +84,7 @@ inline trkCameraConstants to_c(const wire::CameraConstants& k) noexcept {
   return c;
 }
 
-/// The way back; the id is 0.
+/// The way back.
 inline wire::CameraConstants from_c(trkCameraConstants c) noexcept {
   wire::CameraConstants k;
   NamedConstants named{c};

@@ -1,4 +1,4 @@
-#include <trk/trk_file.h>
+#include "trk_file.h"
 
 #include <cstdlib>
 #include <cstring>
@@ -20,10 +20,7 @@ using Recording = std::unique_ptr<file::TakeWriter>;
 
 /// What a program leaves open is brought to its place, as buffered files are.
 void close_recordings() {
-  guarded([] {
-    for (const trkHandle handle : handles<Recording>().all()) trkFileClose(handle);
-    return trkOK;
-  });
+  handles<Recording>().close_all_at_exit([](Recording& recording) { return recording->close() ? trkOK : trkFailed; });
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include <trk/trk_mem.h>
+#include "trk_mem.h"
 
 #include <atomic>
 #include <cstdio>
@@ -6,6 +6,7 @@
 #include <ctime>
 #include <mutex>
 
+#include "environment.h"
 #include "handles.h"
 #include "records.h"
 #include "shm/link.h"
@@ -23,19 +24,24 @@ std::atomic<unsigned> configured{trkMemDefault};
 /// What a handle stands for.
 using Memory = Link;
 
-/// Of segments that are made: the environment's TRK_LAYOUT, or the default. Null, and a line on stderr, for a word that
-/// no segment has as its layout.
+/// The steady clock to a few milliseconds, without a system call and in a tenth of its time.
+Link::Clock::time_point coarse_now() noexcept {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
+  return Link::Clock::time_point(std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec));
+}
+
+/// Of segments that are made. Null, and a line on stderr, where the environment's layout is that of no segment.
 const shm::SegmentLayout* layout_to_make() {
-  const char* const word = std::getenv("TRK_LAYOUT");
-  if (word == nullptr) return shm::layout_of(shm::default_layout);
-  const auto choice = wire::layout_choice_from_word(word);
-  const auto* const layout = choice ? shm::layout_of(wire::resolve(*choice, shm::default_layout)) : nullptr;
+  const auto choice = layout_from_environment();
+  if (!choice) return nullptr;
+  const auto* const layout = shm::layout_of(wire::resolve(*choice, shm::default_layout));
   if (layout == nullptr) {
     std::fprintf(
         stderr,
         "libtrk: TRK_LAYOUT=%s: no shared memory has this layout; allowed are document, identified, and either "
         "followed by _lp64 or _i386\n",
-        word);
+        std::getenv("TRK_LAYOUT"));
   }
   return layout;
 }
@@ -64,7 +70,7 @@ trkError read(trkHandle handle, CRecord* into) {
   return guarded([&] {
     return handles<Memory>().with(handle, [&](Memory& memory) {
       if (into == nullptr) return trkFailed;
-      if (const auto kept = memory.keep(Link::Clock::now()); !kept) {
+      if (const auto kept = memory.keep(coarse_now()); !kept) {
         return shm::is_absence(kept.error().problem) ? trkUnavailable : error_of(kept.error());
       }
       Record record;
@@ -88,11 +94,15 @@ trkError write(trkHandle handle, const CRecord* record) {
   return guarded([&] {
     return handles<Memory>().with(handle, [&](Memory& memory) {
       if (!is_writable(record)) return trkFailed;
-      if (const auto kept = memory.keep_for_writing(Link::Clock::now()); !kept) return error_of(kept.error());
+      if (const auto kept = memory.keep_for_writing(coarse_now()); !kept) return error_of(kept.error());
       if (!memory.segment()->writable()) return trkFailed;
       return memory.write(from_c(*record)) ? trkOK : trkFailed;
     });
   });
+}
+
+void close_at_exit() {
+  handles<Memory>().close_all_at_exit([](Memory&) { return trkOK; });
 }
 
 }  // namespace
@@ -103,12 +113,7 @@ using c_api::guarded;
 using c_api::handles;
 using c_api::Memory;
 
-trkError trkMemConfigure(unsigned flags) {
-  constexpr unsigned kinds = unsigned{trkMemSysV} | unsigned{trkMemArena};
-  if ((flags & ~(kinds | unsigned{trkMemRecreate})) != 0 || (flags & kinds) == kinds) return trkFailed;
-  c_api::configured = flags;
-  return trkOK;
-}
+void trkMemConfigure(unsigned flags) { c_api::configured = flags; }
 
 trkError trkMemOpen(int slot, trkHandle* handle) {
   return guarded([&] {
@@ -116,12 +121,13 @@ trkError trkMemOpen(int slot, trkHandle* handle) {
     Memory::Options options;
     options.slot = slot;
     options.create = c_api::layout_to_make();
+    options.looks_at_every_write = false;
     options.recreate = (c_api::configured.load() & trkMemRecreate) != 0;
     if (options.create == nullptr) return trkFailed;
     Memory memory(options);
     if (const auto opened = c_api::open(memory); !opened) return c_api::error_of(opened.error());
     static std::once_flag registered;
-    std::call_once(registered, [] { std::atexit(trkMemCloseAll); });
+    std::call_once(registered, [] { std::atexit(c_api::close_at_exit); });
     *handle = handles<Memory>().open(std::move(memory));
     return trkOK;
   });

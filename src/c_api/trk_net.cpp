@@ -1,13 +1,17 @@
-#include <trk/trk_net.h>
+#include "trk_net.h"
 
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <optional>
 
+#include "environment.h"
 #include "handles.h"
 #include "params_ring.h"
 #include "records.h"
+#include "transport/socket.h"
 #include "trk/udp.h"
 
 namespace trk_bridge::c_api {
@@ -23,11 +27,12 @@ bool is_port(int port) noexcept { return port >= 1 && port <= std::numeric_limit
 /// One receiving port and what arrived there.
 class NetReader {
  public:
-  explicit NetReader(std::unique_ptr<transport::Source> source) : source_(std::move(source)) {}
+  NetReader(std::unique_ptr<transport::Source> source, bool skips_old)
+      : source_(std::move(source)), skips_old_(skips_old) {}
 
   trkError read(trkCameraParams& into) {
     const bool works = drain();
-    return give(works, ring_.pop_newest(), into);
+    return give(works, skips_old_ ? ring_.pop_newest() : ring_.pop_oldest(), into);
   }
 
   trkError read_paced(trkCameraParams& into, unsigned passed, unsigned tolerated) {
@@ -37,10 +42,24 @@ class NetReader {
 
   trkError read(trkCameraConstants& into) {
     const bool works = drain();
-    const trkError given = give(works, constants_, into);
-    constants_.reset();
+    const trkError given = give(works, has_new_constants_ ? constants_ : std::nullopt, into);
+    has_new_constants_ = false;
     return given;
   }
+
+  /// The last ones, new or not.
+  trkError read_again(trkCameraConstants& into) {
+    const bool works = drain();
+    has_new_constants_ = false;
+    return give(works, constants_, into);
+  }
+
+  int queued() {
+    drain();
+    return static_cast<int>(ring_.size());
+  }
+
+  void skip_old(bool skips) noexcept { skips_old_ = skips; }
 
  private:
   /// False when the port can no longer be read.
@@ -52,6 +71,7 @@ class NetReader {
             ring_.push(*params);
           } else {
             constants_ = std::get<wire::CameraConstants>(reception_.sample.record);
+            has_new_constants_ = true;
           }
           break;
         case Event::malformed:
@@ -82,7 +102,9 @@ class NetReader {
   transport::Reception reception_;
   ParamsRing ring_;
   std::optional<wire::CameraConstants> constants_;
+  bool has_new_constants_ = false;
   bool unsound_ = false;
+  bool skips_old_;
 };
 
 using NetWriter = std::unique_ptr<transport::Sink>;
@@ -106,6 +128,25 @@ trkError send(trkHandle handle, const CRecord* record) {
   });
 }
 
+trkError open_reader(int port, bool skips_old, trkHandle* handle) {
+  return guarded([&] {
+    if (handle == nullptr || !is_port(port)) return trkFailed;
+    trk::UdpSourceSettings settings;
+    settings.port = static_cast<std::uint16_t>(port);
+    *handle = handles<NetReader>().open(trk::open_udp_source(settings), skips_old);
+    return trkOK;
+  });
+}
+
+/// The environment's MULTICAST_TTL; a text that is no TTL is a failure.
+bool set_ttl(std::optional<int>& ttl) {
+  const char* const text = std::getenv("MULTICAST_TTL");
+  if (text == nullptr) return true;
+  ttl = transport::whole_number(text, 0, 255);
+  if (!ttl) std::fprintf(stderr, "libtrk: MULTICAST_TTL=%s: allowed are whole numbers from 0 to 255\n", text);
+  return ttl.has_value();
+}
+
 }  // namespace
 }  // namespace trk_bridge::c_api
 
@@ -115,15 +156,37 @@ using c_api::handles;
 using c_api::NetReader;
 using c_api::NetWriter;
 
-trkError trkNetOpenRead(int localPort, trkHandle* handle) {
-  return guarded([&] {
-    if (handle == nullptr || !c_api::is_port(localPort)) return trkFailed;
-    trk::UdpSourceSettings settings;
-    settings.port = static_cast<std::uint16_t>(localPort);
-    *handle = handles<NetReader>().open(trk::open_udp_source(settings));
+#ifdef TRK_IDENTIFIED
+
+trkError trkNetOpenRead(int localPort, trkHandle* handle, int skipOld) {
+  return c_api::open_reader(localPort, skipOld != 0, handle);
+}
+
+trkError trkNetReadConstants2(trkHandle handle, trkCameraConstants* constants) {
+  return c_api::receive(handle, constants != nullptr, [&](NetReader& reader) { return reader.read_again(*constants); });
+}
+
+int trkNetParamsAvailable(trkHandle handle) {
+  int queued = 0;
+  c_api::receive(handle, true, [&](NetReader& reader) {
+    queued = reader.queued();
+    return trkOK;
+  });
+  return queued;
+}
+
+void trkNetSkipOld(int skip, trkHandle handle) {
+  c_api::receive(handle, true, [&](NetReader& reader) {
+    reader.skip_old(skip != 0);
     return trkOK;
   });
 }
+
+#else
+
+trkError trkNetOpenRead(int localPort, trkHandle* handle) { return c_api::open_reader(localPort, true, handle); }
+
+#endif
 
 trkError trkNetOpenWrite(const char* remoteHost, int remotePort, int binary, trkHandle* handle) {
   return guarded([&] {
@@ -134,7 +197,13 @@ trkError trkNetOpenWrite(const char* remoteHost, int remotePort, int binary, trk
     settings.host = remoteHost;
     settings.port = static_cast<std::uint16_t>(remotePort);
     settings.binary = binary != 0;
-    settings.layout.generation = wire::Generation::document;
+    if (settings.binary) {
+      const auto layout = c_api::layout_from_environment();
+      if (!layout) return trkFailed;
+      settings.layout = *layout;
+    }
+    const bool to_group = transport::is_multicast(transport::resolve(settings.host, settings.port).front());
+    if (to_group && !c_api::set_ttl(settings.ttl)) return trkFailed;
     *handle = handles<NetWriter>().open(trk::open_udp_sink(settings));
     return trkOK;
   });

@@ -1,4 +1,4 @@
-#include <trk/trk_struct.h>
+#include "trk_struct.h"
 
 #include <cstring>
 #include <string_view>
@@ -10,21 +10,27 @@
 namespace trk_bridge::c_api {
 namespace {
 
-trkError put(std::string_view text, char* buffer, size_t size) noexcept {
-  if (text.size() >= size) return trkFailed;
+/// The length; the text is one of those that trkStringSize is enough for.
+int put(std::string_view text, char* buffer) noexcept {
   std::memcpy(buffer, text.data(), text.size());
   buffer[text.size()] = '\0';
-  return trkOK;
+  return static_cast<int>(text.size());
 }
 
 template <typename Record>
-trkError record_to_string(const Record* record, char* buffer, size_t size) noexcept {
-  if (buffer == nullptr || size == 0) return trkFailed;
-  buffer[0] = '\0';
-  if (record == nullptr) return trkFailed;
+int record_to_string(const Record* record, char* buffer) noexcept {
+  if (buffer == nullptr) return 0;
   wire::Buffer text;
+  static_assert(sizeof text <= trkStringSize);  // no record's text fills it
+  if (record == nullptr) return put("", buffer);
   const auto written = wire::to_text(from_c(*record), text);
-  return written ? put(*written, buffer, size) : trkFailed;
+  return put(written ? *written : "", buffer);
+}
+
+/// `guarded` for the functions that give 1 when they have understood.
+template <typename Call>
+int understood(Call&& call) noexcept {
+  return guarded([&] { return call() ? trkOK : trkFailed; }) == trkOK ? 1 : 0;
 }
 
 }  // namespace
@@ -35,57 +41,54 @@ using namespace trk_bridge;
 const char* trkErrorMessage(trkError error) {
   switch (error) {
     case trkOK:
-      return "completed successfully";
+      return "OK";
     case trkFailed:
-      return "failed";
+      return "Operation failed !";
     case trkInvalidHandle:
-      return "invalid handle";
+      return "Invalid handle !";
     case trkInvalidVersion:
-      return "data of an invalid format";
+      return "Invalid version !";
     case trkUnavailable:
-      return "no new data available";
+      return "Data unavailable !";
   }
-  return "unknown error";
+  return "Unknown error !";
 }
 
-trkError trkParamsToString(const trkCameraParams* params, char* buffer, size_t size) {
-  return c_api::record_to_string(params, buffer, size);
+int trkParamsToString(const trkCameraParams* params, char* buffer) { return c_api::record_to_string(params, buffer); }
+
+int trkConstantsToString(const trkCameraConstants* constants, char* buffer) {
+  return c_api::record_to_string(constants, buffer);
 }
 
-trkError trkConstantsToString(const trkCameraConstants* constants, char* buffer, size_t size) {
-  return c_api::record_to_string(constants, buffer, size);
-}
-
-trkError trkStringToParams(const char* string, trkCameraParams* params) {
-  if (string == nullptr || params == nullptr) return trkFailed;
+int trkStringToParams(const char* string, trkCameraParams* params) {
+  if (string == nullptr || params == nullptr) return 0;
   const auto read = wire::params_from_text(string);
-  if (!read) return trkInvalidVersion;
-  *params = c_api::to_c(*read);
-  return trkOK;
+  if (read) *params = c_api::to_c(*read);
+  return read ? 1 : 0;
 }
 
-trkError trkStringToConstants(const char* string, trkCameraConstants* constants) {
-  if (string == nullptr || constants == nullptr) return trkFailed;
+int trkStringToConstants(const char* string, trkCameraConstants* constants) {
+  if (string == nullptr || constants == nullptr) return 0;
   const auto read = wire::constants_from_text(string);
-  if (!read) return trkInvalidVersion;
-  *constants = c_api::to_c(*read);
-  return trkOK;
+  if (read) *constants = c_api::to_c(*read);
+  return read ? 1 : 0;
 }
 
-trkError trkFormatToString(unsigned format, char* buffer, size_t size) {
-  return c_api::guarded([&] {
-    if (buffer == nullptr || size == 0) return trkFailed;
-    buffer[0] = '\0';
-    return c_api::put(wire::format_to_words(format), buffer, size);
-  });
-}
-
-trkError trkStringToFormat(const char* string, unsigned* format) {
-  return c_api::guarded([&] {
-    if (string == nullptr || format == nullptr) return trkFailed;
-    const auto mask = wire::format_from_words(string);
-    if (!mask) return trkFailed;
-    *format = *mask;
+int trkFormatToString(unsigned format, char* buffer) {
+  if (buffer == nullptr) return 0;
+  int length = 0;
+  c_api::guarded([&] {
+    length = c_api::put(wire::format_to_words(format), buffer);
     return trkOK;
+  });
+  return length;
+}
+
+int trkStringToFormat(const char* string, unsigned* format) {
+  if (string == nullptr || format == nullptr) return 0;
+  return c_api::understood([&] {
+    const auto mask = wire::format_from_words(string);
+    if (mask) *format = *mask;
+    return mask.has_value();
   });
 }

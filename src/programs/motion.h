@@ -1,9 +1,8 @@
 // The motion that the writing programs send: one parameter moves after another (document, section 6.2).
 #pragma once
 
-#include <trk/trk_struct.h>
-
 #include "trk_bridge/camera/converter.h"
+#include "trk_struct.h"
 
 namespace trk_bridge::programs {
 

@@ -1,58 +1,73 @@
 #include "print.h"
 
 #include <array>
-#include <ostream>
 
-#include "cli/number_text.h"
 #include "trk_bridge/wire/fields.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::programs {
 namespace {
 
-using cli::number_text;
-using wire::has;
-
-// The sentences below are worded by hand and have to name every field.
+// The lines below are worded by hand and have to name every field; the camera's id has none.
 static_assert(wire::field_count<wire::CameraParams>() == 10 && wire::field_count<wire::Euler>() == 6 &&
               wire::field_count<wire::CameraConstants>() == 11);
 
-void print_transform(std::ostream& out, const trkCameraParams& p) {
-  if (has(p.format, trkEuler)) {
-    out << "x " << number_text(p.t.e.x) << " y " << number_text(p.t.e.y) << " z " << number_text(p.t.e.z) << " m, pan "
-        << number_text(p.t.e.pan) << " tilt " << number_text(p.t.e.tilt) << " roll " << number_text(p.t.e.roll)
-        << " deg";
-    return;
-  }
-  out << "matrix";
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) out << (column == 0 ? " [" : " ") << number_text(p.t.m[column][row]);
-    out << ']';
-  }
+// Values stand in one column, which differs between the blocks.
+constexpr int constants_column = 20, params_column = 18;
+
+void print_constant(std::FILE* out, const char* label, int value) {
+  std::fprintf(out, "\t%-*s%d\n", constants_column, label, value);
+}
+void print_constant(std::FILE* out, const char* label, double value) {
+  std::fprintf(out, "\t%-*s%g\n", constants_column, label, value);
+}
+void print_parameter(std::FILE* out, const char* label, double value) {
+  std::fprintf(out, "\t%-*s%g\n", params_column, label, value);
 }
 
 }  // namespace
 
-void print(std::ostream& out, const trkCameraConstants& c) {
-  out << "constants: image " << c.imageWidth << " x " << c.imageHeight << " pixels, blank left " << c.blankLeft
-      << " right " << c.blankRight << " top " << c.blankTop << " bottom " << c.blankBottom << ", chip "
-      << number_text(c.chipWidth) << " x " << number_text(c.chipHeight) << " mm, fake chip "
-      << number_text(c.fakeChipWidth) << " x " << number_text(c.fakeChipHeight) << " mm\n"
-      << std::flush;
+void print(std::FILE* out, const trkCameraConstants& c) {
+  std::fputs("Camera constants:\n", out);
+  print_constant(out, "image width:", c.imageWidth);
+  print_constant(out, "image height:", c.imageHeight);
+  print_constant(out, "blank left:", c.blankLeft);
+  print_constant(out, "blank right:", c.blankRight);
+  print_constant(out, "blank top:", c.blankTop);
+  print_constant(out, "blank bottom:", c.blankBottom);
+  print_constant(out, "chip width:", c.chipWidth);
+  print_constant(out, "chip height:", c.chipHeight);
+  print_constant(out, "fake chip width:", c.fakeChipWidth);
+  print_constant(out, "fake chip height:", c.fakeChipHeight);
+  std::fputs("\n", out);
 }
 
-void print(std::ostream& out, const trkCameraParams& p) {
+void print(std::FILE* out, const trkCameraParams& p) {
   std::array<char, trkStringSize> words{};
-  if (trkFormatToString(p.format, words.data(), words.size()) != trkOK) words[0] = '\0';
-  const bool is_angle = has(p.format, trkFieldOfView);
-  out << "counter " << p.counter << ": " << words.data() << ": ";
-  print_transform(out, p);
-  out << (is_angle ? ", field of view " : ", image distance ") << number_text(p.fov) << (is_angle ? " deg" : " mm")
-      << ", center shift " << number_text(p.centerX) << ' ' << number_text(p.centerY)
-      << (has(p.format, trkShiftInPixels) ? " pixels" : " mm") << ", k1 " << number_text(p.k1) << " k2 "
-      << number_text(p.k2) << ", focdist " << number_text(p.focdist) << " m, aperture " << number_text(p.aperture)
-      << '\n'
-      << std::flush;
+  trkFormatToString(p.format, words.data());
+  std::fputs("Camera parameters:\n", out);
+  std::fprintf(out, "\t%-*s%s\n", params_column, "format:", words.data());
+  if (wire::has(p.format, trkEuler)) {
+    print_parameter(out, "x:", p.t.e.x);
+    print_parameter(out, "y:", p.t.e.y);
+    print_parameter(out, "z:", p.t.e.z);
+    print_parameter(out, "pan:", p.t.e.pan);
+    print_parameter(out, "tilt:", p.t.e.tilt);
+    print_parameter(out, "roll:", p.t.e.roll);
+  } else {
+    std::fputs("\tmatrix:\n", out);
+    for (int row = 0; row < 4; ++row) {
+      std::fprintf(out, "\t\t%14g%14g%14g%14g\n", p.t.m[0][row], p.t.m[1][row], p.t.m[2][row], p.t.m[3][row]);
+    }
+  }
+  print_parameter(out, "field of view:", p.fov);
+  print_parameter(out, "center shift x:", p.centerX);
+  print_parameter(out, "center shift y:", p.centerY);
+  print_parameter(out, "distorsion k1:", p.k1);
+  print_parameter(out, "distorsion k2:", p.k2);
+  print_parameter(out, "focal distance:", p.focdist);
+  print_parameter(out, "aperture:", p.aperture);
+  std::fprintf(out, "\t%-*s%lu\n\n", params_column, "counter:", p.counter);
 }
 
 }  // namespace trk_bridge::programs

@@ -1,14 +1,14 @@
-// Records of the document's C interface as lines for a person.
+// Records of the document's C interface as the field's programs print them: scripts read this text.
 #pragma once
 
-#include <trk/trk_struct.h>
+#include <cstdio>
 
-#include <iosfwd>
+#include "trk_struct.h"
 
 namespace trk_bridge::programs {
 
-/// One line each, written out at once; numbers with the fewest digits that read back to the same value.
-void print(std::ostream&, const trkCameraConstants&);
-void print(std::ostream&, const trkCameraParams&);
+/// A block each: a heading, a line a field with a tab before it, an empty line. Numbers have six digits.
+void print(std::FILE* out, const trkCameraConstants&);
+void print(std::FILE* out, const trkCameraParams&);
 
 }  // namespace trk_bridge::programs

@@ -75,7 +75,9 @@ tl::expected<void, SlotFault> Link::keep(Clock::time_point now) noexcept {
 
 tl::expected<void, SlotFault> Link::keep_for_writing(Clock::time_point now) noexcept {
   if (!segment_) return attach(options_.create, now);
-  return check(look_due(now, check_period), options_.create, now);
+  const bool is_due = look_due(now, check_period);
+  if (!is_due && !options_.looks_at_every_write && !options_.recreate) return {};
+  return check(is_due, options_.create, now);
 }
 
 tl::expected<void, SlotFault> Link::check(bool look_up, const SegmentLayout* create, Clock::time_point now) noexcept {

@@ -36,6 +36,9 @@ class Link {
     const SegmentLayout* create = nullptr;
     int mode = 0666;        ///< of segments it makes
     bool recreate = false;  ///< trkMemRecreate: a fresh segment whenever all others have left
+    /// False: keep_for_writing() relies on the look before it for `check_period`, as keep() does, and what is written
+    /// meanwhile to a segment that was removed is lost. Does not count with `recreate`.
+    bool looks_at_every_write = true;
   };
 
   /// What `now` is measured with.
@@ -53,8 +56,8 @@ class Link {
   /// else has attached to for `alone_limit`, unless it wrote; that removes it where the system permits, and where not,
   /// it is attached to again when somebody else has. A fault says why there is no segment.
   [[nodiscard]] tl::expected<void, SlotFault> keep(Clock::time_point now) noexcept;
-  /// For writing: looks at every call, for a write into a removed segment would be lost, and makes one where there is
-  /// none.
+  /// For writing: as a rule looks at every call, for a write into a removed segment would be lost, and makes one where
+  /// there is none.
   [[nodiscard]] tl::expected<void, SlotFault> keep_for_writing(Clock::time_point now) noexcept;
 
   /// Null without a segment.

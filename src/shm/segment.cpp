@@ -73,19 +73,36 @@ std::uint64_t magic_in(char* base, const SegmentLayout& layout) noexcept {
   return __atomic_load_n(at<std::uint32_t>(base, 0), __ATOMIC_ACQUIRE);
 }
 
-void copy_words_out(char* from, std::size_t size, char* to) noexcept {
-  for (std::size_t i = 0; i < size; i += 4) {
-    const std::uint32_t word = __atomic_load_n(at<std::uint32_t>(from, i), __ATOMIC_RELAXED);
+template <typename Word>
+void copy_out_by(char* from, std::size_t size, char* to) noexcept {
+  for (std::size_t i = 0; i < size; i += sizeof(Word)) {
+    const Word word = __atomic_load_n(at<Word>(from, i), __ATOMIC_RELAXED);
     std::memcpy(to + i, &word, sizeof word);
   }
 }
 
-void copy_words_in(const char* from, std::size_t size, char* to) noexcept {
-  for (std::size_t i = 0; i < size; i += 4) {
-    std::uint32_t word = 0;
+template <typename Word>
+void copy_in_by(const char* from, std::size_t size, char* to) noexcept {
+  for (std::size_t i = 0; i < size; i += sizeof(Word)) {
+    Word word = 0;
     std::memcpy(&word, from + i, sizeof word);
-    __atomic_store_n(at<std::uint32_t>(to, i), word, __ATOMIC_RELAXED);
+    __atomic_store_n(at<Word>(to, i), word, __ATOMIC_RELAXED);
   }
+}
+
+// The segment begins at a page, and layouts are of 4-byte words at least.
+bool is_of_long_words(const char* shared, std::size_t size) noexcept {
+  return reinterpret_cast<std::uintptr_t>(shared) % sizeof(std::uint64_t) == 0 && size % sizeof(std::uint64_t) == 0;
+}
+
+void copy_words_out(char* from, std::size_t size, char* to) noexcept {
+  if (is_of_long_words(from, size)) return copy_out_by<std::uint64_t>(from, size, to);
+  copy_out_by<std::uint32_t>(from, size, to);
+}
+
+void copy_words_in(const char* from, std::size_t size, char* to) noexcept {
+  if (is_of_long_words(to, size)) return copy_in_by<std::uint64_t>(from, size, to);
+  copy_in_by<std::uint32_t>(from, size, to);
 }
 
 // A maker may count itself in before it writes the magic.

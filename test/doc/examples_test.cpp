@@ -16,7 +16,21 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-TEST(Examples, read_udp_prints_what_trk_sends) {
+TEST(Examples, the_renderer_follows_the_crane_controller) {
+  const ReservedPort port;
+  // Constants come again within a second of 50 sets, should the first ones have come too early.
+  Program renderer({RENDERER, port.text(), "60"});
+  Program crane({CRANE_CONTROLLER, "127.0.0.1", port.text(), "100000"});
+  const std::string out = renderer.rest_of_out();
+  EXPECT_THAT(out, HasSubstr("constants: image 1920 x 1080 pixels, chip 9.59 x 5.39 mm\n"));
+  EXPECT_THAT(out, HasSubstr(", -4, 2) m, pan "));
+  EXPECT_EQ(renderer.rest_of_err(), "");
+  EXPECT_EQ(renderer.wait(), 0);
+  crane.signal(SIGTERM);
+  EXPECT_EQ(crane.wait(), -SIGTERM);
+}
+
+TEST(Examples, renderer_prints_what_trk_sends) {
   const TemporaryDirectory directory;
   const std::string take = directory / "take.trk";
   Program maker({WRITE_FILE, take, "euler"});
@@ -25,7 +39,7 @@ TEST(Examples, read_udp_prints_what_trk_sends) {
 
   const ReservedPort port;
   // Constants come again within a second of 50 sets, should the first ones have come too early.
-  Program reader({READ_UDP, port.text(), "60"});
+  Program reader({RENDERER, port.text(), "60"});
   Program sender({TRK_TOOL, "relay", "file:" + take + "?loop=1&time=now", port.url()});
   const std::string out = reader.rest_of_out();
   EXPECT_THAT(out, HasSubstr("constants: image 720 x 576 pixels, chip 6.4 x 4.8 mm\n"));
@@ -34,10 +48,10 @@ TEST(Examples, read_udp_prints_what_trk_sends) {
   EXPECT_EQ(reader.wait(), 0);
 }
 
-TEST(Examples, read_udp_reports_what_is_not_trk) {
+TEST(Examples, renderer_reports_what_is_not_trk) {
   const ReservedPort port;
   const PlainSocket sender;
-  Program reader({READ_UDP, port.text(), "100000"});
+  Program reader({RENDERER, port.text(), "100000"});
   {
     const Repeating sending(50, [&] { sender.send(datagram(params(1)), "127.0.0.1", port.number()); });
     ASSERT_TRUE(reader.out_line());
@@ -48,9 +62,9 @@ TEST(Examples, read_udp_reports_what_is_not_trk) {
   EXPECT_EQ(reader.wait(), -SIGTERM);
 }
 
-TEST(Examples, read_udp_says_that_a_port_is_taken) {
+TEST(Examples, renderer_says_that_a_port_is_taken) {
   const PlainSocket taken("0.0.0.0");
-  Program reader({READ_UDP, std::to_string(taken.port()), "1"});
+  Program reader({RENDERER, std::to_string(taken.port()), "1"});
   EXPECT_THAT(reader.rest_of_err(), StartsWith("port " + std::to_string(taken.port()) + ": "));
   EXPECT_EQ(reader.wait(), 1);
 }
@@ -83,8 +97,8 @@ TEST(Examples, write_mem_leaves_no_memory_behind) {
   EXPECT_EQ(slot.segment(), -1);
 }
 
-TEST(Examples, both_tell_their_usage) {
-  for (const char* program : {READ_UDP, WRITE_MEM}) {
+TEST(Examples, all_show_their_usage) {
+  for (const char* program : {CRANE_CONTROLLER, RENDERER, WRITE_MEM}) {
     Program without_arguments({program});
     EXPECT_THAT(without_arguments.rest_of_err(), StartsWith("usage: "));
     EXPECT_EQ(without_arguments.wait(), 2);

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "trk_bridge/wire/format.h"
@@ -128,6 +129,24 @@ constexpr bool same_fields(const Record& a, const Record& b) noexcept {
   const auto compare = [&same](const Field&, const auto& of_a, const auto& of_b) { same = same && of_a == of_b; };
   for_each_field<Record>(compare, a, b);
   return same;
+}
+
+/// Equal for equal parameters and hardly ever for others: 64 bits of FNV-1a, a number at a time.
+inline std::uint64_t fingerprint(const CameraParams& params) noexcept {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  const auto add = [&hash](const Field&, const auto& number) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof number);
+    hash = (hash ^ bits) * 0x100000001b3U;
+    hash ^= hash >> 32U;
+  };
+  if (has(params.format, euler)) {
+    for_each_euler_field(add, params.euler);
+  } else {
+    for (const double& number : params.matrix) add({}, number);
+  }
+  for_each_params_field(add, params);
+  return hash;
 }
 
 }  // namespace trk_bridge::wire

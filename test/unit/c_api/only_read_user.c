@@ -1,8 +1,8 @@
 /* With ONLY_READ the writing functions are not declared, so that a program may use their names for its own. */
 #define ONLY_READ
-#include <trk/trk_file.h>
-#include <trk/trk_mem.h>
-#include <trk/trk_net.h>
+#include "trk_file.h"
+#include "trk_mem.h"
+#include "trk_net.h"
 
 static int trkMemWriteParams = 1, trkMemWriteConstants = 1, trkNetOpenWrite = 1, trkNetWriteParams = 1,
            trkNetWriteConstants = 1, trkFileOpenWrite = 1, trkFileWriteParams = 1;

@@ -1,15 +1,17 @@
-/* Prints the camera that a tracker sends to a UDP port: read_udp PORT SETS. Ends after SETS sets of parameters. */
+/* A renderer: asks once a video field for the camera that a tracker sends to a UDP port, and prints it: renderer PORT
+ * FIELDS. Ends after FIELDS fields with a camera. */
 #define _POSIX_C_SOURCE 199309L
-#include <trk/trk_net.h>
+#include "trk_net.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
-/* The functions do not wait; a renderer would call them once a field instead. */
-static void wait_a_little(void) {
-  const struct timespec millisecond = {0, 1000000};
-  nanosleep(&millisecond, NULL);
+/* Stands in for what waits for the next field; gives how many have passed. */
+static int wait_for_a_field(void) {
+  const struct timespec field = {0, 20000000};
+  nanosleep(&field, NULL);
+  return 1;
 }
 
 static void print_constants(const trkCameraConstants* c) {
@@ -19,7 +21,7 @@ static void print_constants(const trkCameraConstants* c) {
 
 static void print_params(const trkCameraParams* p) {
   char words[trkStringSize];
-  if (trkFormatToString(p->format, words, sizeof words) != trkOK) words[0] = '\0';
+  trkFormatToString(p->format, words);
   if (p->format & trkEuler) {
     printf("%lu: at (%g, %g, %g) m, pan %g tilt %g roll %g degrees [%s]\n", p->counter, p->t.e.x, p->t.e.y, p->t.e.z,
            p->t.e.pan, p->t.e.tilt, p->t.e.roll, words);
@@ -31,29 +33,32 @@ static void print_params(const trkCameraParams* p) {
 }
 
 int main(int argc, char** argv) {
+  /* Sets that may be in store: more is more delay, less is more jitter. */
+  const int tolerated = 2;
   trkHandle handle;
   trkCameraParams params;
   trkCameraConstants constants;
-  long wanted, sets = 0;
+  trkError error, constants_error;
+  long wanted, fields = 0;
   if (argc != 3 || (wanted = strtol(argv[2], NULL, 10)) <= 0) {
-    fprintf(stderr, "usage: read_udp PORT SETS\n");
+    fprintf(stderr, "usage: renderer PORT FIELDS\n");
     return 2;
   }
-  trkError error = trkNetOpenRead(atoi(argv[1]), &handle);
+  error = trkNetOpenRead(atoi(argv[1]), &handle);
   if (error != trkOK) {
     fprintf(stderr, "port %s: %s\n", argv[1], trkErrorMessage(error));
     return 1;
   }
   setvbuf(stdout, NULL, _IOLBF, BUFSIZ);
-  while (sets < wanted && error != trkFailed) {
-    const trkError constants_error = trkNetReadConstants(handle, &constants);
+  while (fields < wanted && error != trkFailed) {
+    const int passed = wait_for_a_field();
+    constants_error = trkNetReadConstants(handle, &constants);
     if (constants_error == trkOK) print_constants(&constants);
-    error = trkNetReadParams(handle, &params);
+    /* Where the wanted set has not come, a renderer draws with the last one again. */
+    error = trkNetBufReadParams(handle, &params, passed, tolerated);
     if (error == trkOK) {
       print_params(&params);
-      ++sets;
-    } else if (error == trkUnavailable) {
-      wait_a_little();
+      ++fields;
     }
     /* Reported once, by whichever call comes first. */
     if (constants_error == trkInvalidVersion || error == trkInvalidVersion) {
