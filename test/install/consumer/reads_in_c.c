@@ -1,4 +1,4 @@
-#include <trk/trk_net.h>
+#include "trk_net.h"
 
 int main(void) {
   trkCameraParams params;
