@@ -133,17 +133,22 @@ bool is_deserted(int id) noexcept {
 // that may not be moved stays with its segment: programs of the field cannot open a slot that has a file alone.
 void remove_if_last(int slot, int id) noexcept {
   if (!is_deserted(id)) return;
-  if (!means(slot, id)) {
+  const auto found = find_segment(slot);
+  if (!found || found->id != id) {
     ::shmctl(id, IPC_RMID, nullptr);
     return;
   }
   const auto spare = SpareFile::make(slot);
-  if (!spare || !spare->take_slot_file()) return;
-  if (is_deserted(id)) {
-    ::shmctl(id, IPC_RMID, nullptr);
-  } else {
-    static_cast<void>(spare->become_slot_file());
+  if (!spare) return;
+  if (!spare->take_slot_file()) {
+    if (errno == ENOENT && is_deserted(id)) ::shmctl(id, IPC_RMID, nullptr);
+    return;
   }
+  // Somebody else may have done the same, and a third one have made the slot again.
+  const bool is_its_file = ::ftok(spare->c_str(), 0) == found->key;
+  const bool removes = is_deserted(id);
+  if (removes) ::shmctl(id, IPC_RMID, nullptr);
+  if (!removes || !is_its_file) static_cast<void>(spare->become_slot_file());
 }
 
 struct Mapping {
@@ -167,9 +172,11 @@ tl::expected<Mapping, SlotFault> map(int slot, int id) noexcept {
 }
 
 tl::expected<void, SlotFault> check_magic(int slot, char* base, const SegmentLayout& layout) noexcept {
-  const std::uint64_t magic = magic_in(base, layout);
-  if (magic == segment_magic) return {};
+  std::uint64_t magic = magic_in(base, layout);
   const bool unfinished = magic == 0 && is_unwritten(base, layout);
+  // Its maker may have finished it meanwhile.
+  if (magic == 0) magic = magic_in(base, layout);
+  if (magic == segment_magic) return {};
   SlotFault fault = slot_fault(unfinished ? SlotProblem::unfinished : SlotProblem::foreign, slot);
   fault.size = layout.size;
   fault.magic = magic;

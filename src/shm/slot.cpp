@@ -95,6 +95,8 @@ tl::expected<key_t, SlotFault> slot_key(int slot) noexcept {
 tl::expected<void, SlotFault> check_unshared(int slot, key_t key) noexcept {
   for (int other = 0; other < slot_count; ++other) {
     if (other == slot || slot_key(other).value_or(IPC_PRIVATE) != key) continue;
+    // The slot's own file may have gone meanwhile, and its inode be another's.
+    if (slot_key(slot).value_or(IPC_PRIVATE) != key) return tl::unexpected(slot_fault(SlotProblem::no_file, slot));
     SlotFault fault = slot_fault(SlotProblem::key_shared, slot);
     fault.other_slot = other;
     return tl::unexpected(fault);

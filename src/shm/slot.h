@@ -59,7 +59,8 @@ class SpareFile {
 /// False when there is a file already.
 [[nodiscard]] tl::expected<bool, SlotFault> make_slot_file(int slot, bool replace) noexcept;
 
-/// A fault when another slot's file has this key.
+/// A fault when another slot's file has this key, which the slot's own file had: key_shared, or no_file when it is
+/// gone.
 [[nodiscard]] tl::expected<void, SlotFault> check_unshared(int slot, key_t key) noexcept;
 
 Attendance attendance_of(const shmid_ds& state) noexcept;
