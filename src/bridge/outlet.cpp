@@ -123,6 +123,10 @@ class Outlet::Work {
     busy_since_.store(0);
   }
   void try_to_open();
+  bool is_open() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return is_open_;
+  }
   void note_open(bool is_open, const std::string& cannot_open) {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_open_ = is_open;
@@ -168,7 +172,7 @@ void Outlet::Work::write(const QueuedRecord& queued) {
 }
 
 void Outlet::Work::run() {
-  const auto is_in_order = [this] { return state().is_open && !writer_.statistics().fails; };
+  const auto is_in_order = [this] { return is_open() && !writer_.statistics().fails; };
   if (!is_in_order()) try_to_open();
   auto next_attempt = std::chrono::steady_clock::now() + retry_period;
   for (bool is_good = is_in_order(); !queue_->is_over();) {

@@ -84,9 +84,6 @@ void FanOut::close() {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_good_ = false;
   }
-  for (const auto& outlet : outlets_) {
-    if (const auto notice = outlet->state().notice; !notice.empty()) report(outlet->name() + ": " + notice);
-  }
 }
 
 void FanOut::summarise() const {

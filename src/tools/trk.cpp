@@ -112,7 +112,11 @@ class RelayCommand {
     for (const auto& endpoint : to) sinks.add(endpoint, form_);
     const cli::StopSignals signals(source.get());
     std::cerr << "trk: reading " << source->name() << '\n';
-    for (const auto& outlet : sinks.outlets()) std::cerr << "trk: writing " << outlet->name() << '\n';
+    for (const auto& outlet : sinks.outlets()) {
+      const auto state = outlet->state();
+      std::cerr << "trk: writing " << state.name << '\n';
+      if (!state.notice.empty()) std::cerr << "trk: " << state.name << ": " << state.notice << '\n';
+    }
     return relay(*source, sinks);
   }
 
