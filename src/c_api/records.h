@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "trk_bridge/wire/fields.h"
@@ -90,6 +91,62 @@ inline wire::CameraConstants from_c(trkCameraConstants c) noexcept {
   NamedConstants named{c};
   wire::copy_fields<wire::CameraConstants>(named, k);
   return k;
+}
+
+/// Parameters as today's programs have them in memory on a machine like this one: shm::default_layout.
+struct NativeParams {
+  unsigned id;
+  unsigned format;
+  trkTransform t;
+  double fov, center_x, center_y, k1, k2, focdist, aperture;
+  unsigned long counter;
+};
+/// Where they are that: not on 32 bits.
+inline constexpr bool has_native_params = sizeof(NativeParams) == 200 && offsetof(NativeParams, t) == 8;
+
+inline bool is_finite(const NativeParams& n) noexcept {
+  // Of a number that is not finite, the difference with itself is none.
+  double sum = (n.fov - n.fov) + (n.center_x - n.center_x) + (n.center_y - n.center_y) + (n.k1 - n.k1) + (n.k2 - n.k2) +
+               (n.focdist - n.focdist) + (n.aperture - n.aperture);
+  const double* const numbers = &n.t.m[0][0];
+  const int count = wire::has(n.format, wire::euler) ? 6 : 16;
+  for (int i = 0; i < count; ++i) sum += numbers[i] - numbers[i];
+  return sum == 0;
+}
+
+/// Zero where the format says nothing of the transform.
+inline void copy_transform(unsigned format, const trkTransform& from, trkTransform& to) noexcept {
+  if (wire::has(format, wire::euler)) {
+    to = {};
+    to.e = from.e;
+  } else {
+    to = from;
+  }
+}
+
+inline NativeParams to_native(const trkCameraParams& c) noexcept {
+  NativeParams n{0, c.format, {}, c.fov, c.centerX, c.centerY, c.k1, c.k2, c.focdist, c.aperture, c.counter};
+#ifdef TRK_IDENTIFIED
+  n.id = c.id;
+#endif
+  copy_transform(c.format, c.t, n.t);
+  return n;
+}
+
+inline void from_native(const NativeParams& n, trkCameraParams& c) noexcept {
+#ifdef TRK_IDENTIFIED
+  c.id = n.id;
+#endif
+  c.format = n.format;
+  copy_transform(n.format, n.t, c.t);
+  c.fov = n.fov;
+  c.centerX = n.center_x;
+  c.centerY = n.center_y;
+  c.k1 = n.k1;
+  c.k2 = n.k2;
+  c.focdist = n.focdist;
+  c.aperture = n.aperture;
+  c.counter = n.counter;
 }
 
 /// Whether a program passed something that may be written.

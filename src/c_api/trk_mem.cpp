@@ -3,8 +3,10 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <mutex>
+#include <string_view>
 
 #include "environment.h"
 #include "handles.h"
@@ -65,7 +67,39 @@ trkError error_of(const SlotFault& fault) noexcept {
   return trkFailed;
 }
 
-template <typename CRecord, typename Record>
+trkError error_of(ReadResult result) noexcept {
+  return result == ReadResult::fresh ? trkOK : result == ReadResult::malformed ? trkInvalidVersion : trkUnavailable;
+}
+
+ReadResult read_new(Memory& memory, trkCameraConstants& into) noexcept {
+  wire::CameraConstants constants;
+  transport::Fault fault;
+  const ReadResult result = memory.read(constants, fault);
+  if (result == ReadResult::fresh) into = to_c(constants);
+  return result;
+}
+
+// What is in the layout of this program's own structures is copied as it is.
+ReadResult read_new(Memory& memory, trkCameraParams& into) noexcept {
+  shm::RecordImage image;
+  std::string_view bytes;
+  transport::Fault fault;
+  const ReadResult result = memory.read_params(image, bytes, fault);
+  if (result != ReadResult::fresh) return result;
+  if (has_native_params && memory.read_in() == shm::default_layout) {
+    NativeParams native;
+    std::memcpy(&native, bytes.data(), sizeof native);
+    if (!is_finite(native)) return ReadResult::malformed;
+    from_native(native, into);
+    return result;
+  }
+  const auto params = wire::params_from_image(bytes, memory.read_in());
+  if (!params) return ReadResult::malformed;
+  into = to_c(*params);
+  return result;
+}
+
+template <typename CRecord>
 trkError read(trkHandle handle, CRecord* into) {
   return guarded([&] {
     return handles<Memory>().with(handle, [&](Memory& memory) {
@@ -73,20 +107,23 @@ trkError read(trkHandle handle, CRecord* into) {
       if (const auto kept = memory.keep(coarse_now()); !kept) {
         return shm::is_absence(kept.error().problem) ? trkUnavailable : error_of(kept.error());
       }
-      Record record;
-      transport::Fault fault;
-      switch (memory.read(record, fault)) {
-        case ReadResult::fresh:
-          *into = to_c(record);
-          return trkOK;
-        case ReadResult::malformed:
-          return trkInvalidVersion;
-        case ReadResult::nothing:
-          break;
-      }
-      return trkUnavailable;
+      return error_of(read_new(memory, *into));
     });
   });
+}
+
+bool put(Memory& memory, const trkCameraConstants& constants) noexcept {
+  return memory.write(from_c(constants)).has_value();
+}
+
+bool put(Memory& memory, const trkCameraParams& params) noexcept {
+  if (!has_native_params || memory.segment()->layout().record != shm::default_layout) {
+    return memory.write(from_c(params)).has_value();
+  }
+  const NativeParams native = to_native(params);
+  if (!is_finite(native)) return false;
+  memory.write_params({reinterpret_cast<const char*>(&native), sizeof native});
+  return true;
 }
 
 template <typename CRecord>
@@ -96,7 +133,7 @@ trkError write(trkHandle handle, const CRecord* record) {
       if (!is_writable(record)) return trkFailed;
       if (const auto kept = memory.keep_for_writing(coarse_now()); !kept) return error_of(kept.error());
       if (!memory.segment()->writable()) return trkFailed;
-      return memory.write(from_c(*record)) ? trkOK : trkFailed;
+      return put(memory, *record) ? trkOK : trkFailed;
     });
   });
 }
@@ -147,13 +184,9 @@ void trkMemCloseAll(void) {
   });
 }
 
-trkError trkMemReadParams(trkHandle handle, trkCameraParams* params) {
-  return c_api::read<trkCameraParams, wire::CameraParams>(handle, params);
-}
+trkError trkMemReadParams(trkHandle handle, trkCameraParams* params) { return c_api::read(handle, params); }
 
-trkError trkMemReadConstants(trkHandle handle, trkCameraConstants* constants) {
-  return c_api::read<trkCameraConstants, wire::CameraConstants>(handle, constants);
-}
+trkError trkMemReadConstants(trkHandle handle, trkCameraConstants* constants) { return c_api::read(handle, constants); }
 
 trkError trkMemWriteParams(trkHandle handle, const trkCameraParams* params) { return c_api::write(handle, params); }
 

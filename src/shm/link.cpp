@@ -1,6 +1,7 @@
 #include "link.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "slot.h"
 #include "wire/layout_detector.h"
@@ -40,6 +41,12 @@ std::string_view params_in(const RecordImage& image, const SegmentLayout& layout
 
 std::string_view constants_in(const RecordImage& image, const SegmentLayout& layout) noexcept {
   return image.part(layout.constants[image.counter & 1U], layout.constants_size);
+}
+
+/// What is wrong with a record of no layout: rather what wire says of it.
+template <typename Record>
+transport::Fault fault_of(const tl::expected<Record, wire::Fault>& record, const transport::Fault& of_layout) noexcept {
+  return record ? of_layout : transport::Fault(record.error());
 }
 
 bool is_all_zero(std::string_view bytes) noexcept {
@@ -163,6 +170,7 @@ void Link::begin_reading(Clock::time_point now) noexcept {
   left_.reset();
   if (is_known) return;
   writer_layout_ = nullptr;
+  known_head_.reset();
   read_in_ = segment_->layout().record;
   const bool restore = written_constants_ && segment_->writable() && !has_constants(*segment_);
   // They went into a segment before, and no layout refuses constants that another one can hold.
@@ -211,35 +219,46 @@ tl::expected<const SegmentLayout*, transport::Fault> Link::layout_of_params(cons
   return tl::unexpected(record_fault(RecordProblem::uncertain, *segment_));
 }
 
-template <typename Record>
-ReadResult Link::hand_out(const tl::expected<Record, wire::Fault>& record,
-                          const tl::expected<const SegmentLayout*, transport::Fault>& layout, Record& into,
-                          transport::Fault& fault) noexcept {
-  if (!record) {
-    fault = record.error();
-    return ReadResult::malformed;
-  }
-  if (!layout) {
-    fault = layout.error();
-    return ReadResult::malformed;
-  }
-  read_in_ = (*layout)->record;
-  into = *record;
-  return ReadResult::fresh;
+tl::expected<const SegmentLayout*, transport::Fault> Link::known_layout_of_params(const RecordImage& image) noexcept {
+  const SegmentLayout& own = segment_->layout();
+  const std::string_view head = image.view().substr(0, 8);
+  if (known_head_ && std::memcmp(known_head_->data(), head.data(), head.size()) == 0) return &own;
+  known_head_.reset();
+  const auto layout = layout_of_params(image);
+  if (layout && *layout == &own && writer_layout_ == &own) std::memcpy(known_head_.emplace().data(), head.data(), 8);
+  return layout;
 }
 
-ReadResult Link::read(wire::CameraParams& into, transport::Fault& fault) noexcept {
+ReadResult Link::read_params(RecordImage& image, std::string_view& bytes, transport::Fault& fault) noexcept {
   if (!segment_ || segment_->params_counter() == params_read_) return ReadResult::nothing;
-  RecordImage image;
   if (!segment_->copy_params(image)) {
     fault = record_fault(RecordProblem::unsteady, *segment_);
     return ReadResult::malformed;
   }
   overwritten_ += static_cast<std::uint16_t>(image.counter - params_read_ - 1U);
   params_read_ = image.counter;
-  const auto layout = layout_of_params(image);
-  const SegmentLayout& in = layout ? **layout : segment_->layout();
-  return hand_out(wire::params_from_image(params_in(image, in), in.record), layout, into, fault);
+  const auto layout = known_layout_of_params(image);
+  if (!layout) {
+    fault = fault_of(wire::params_from_image(image.view(), segment_->layout().record), layout.error());
+    return ReadResult::malformed;
+  }
+  read_in_ = (*layout)->record;
+  bytes = params_in(image, **layout);
+  return ReadResult::fresh;
+}
+
+ReadResult Link::read(wire::CameraParams& into, transport::Fault& fault) noexcept {
+  RecordImage image;
+  std::string_view bytes;
+  const ReadResult result = read_params(image, bytes, fault);
+  if (result != ReadResult::fresh) return result;
+  const auto params = wire::params_from_image(bytes, read_in_);
+  if (!params) {
+    fault = params.error();
+    return ReadResult::malformed;
+  }
+  into = *params;
+  return ReadResult::fresh;
 }
 
 ReadResult Link::read(wire::CameraConstants& into, transport::Fault& fault) noexcept {
@@ -253,8 +272,18 @@ ReadResult Link::read(wire::CameraConstants& into, transport::Fault& fault) noex
   constants_unread_ = false;
   constants_read_ = image.counter;
   const auto layout = layout_of_constants(image);
-  const SegmentLayout& in = layout ? **layout : segment_->layout();
-  return hand_out(wire::constants_from_image(constants_in(image, in), in.record), layout, into, fault);
+  if (!layout) {
+    fault = fault_of(wire::constants_from_image(image.view(), segment_->layout().record), layout.error());
+    return ReadResult::malformed;
+  }
+  const auto constants = wire::constants_from_image(constants_in(image, **layout), (*layout)->record);
+  if (!constants) {
+    fault = constants.error();
+    return ReadResult::malformed;
+  }
+  read_in_ = (*layout)->record;
+  into = *constants;
+  return ReadResult::fresh;
 }
 
 tl::expected<void, wire::Fault> Link::write(const wire::CameraParams& params) noexcept {

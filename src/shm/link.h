@@ -1,9 +1,11 @@
 // A slot that is kept attached: what was removed, replaced or not yet there is found again.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include <tl/expected.hpp>
 
@@ -70,12 +72,19 @@ class Link {
   /// The newest parameters (constants) not read yet; `fault` is set with malformed.
   [[nodiscard]] ReadResult read(wire::CameraParams& into, transport::Fault& fault) noexcept;
   [[nodiscard]] ReadResult read(wire::CameraConstants& into, transport::Fault& fault) noexcept;
+  /// As read() of parameters, but their bytes, in the layout read_in().
+  [[nodiscard]] ReadResult read_params(RecordImage& image, std::string_view& bytes, transport::Fault& fault) noexcept;
   /// The layout of the last record read; before one, the segment's.
   wire::Layout read_in() const noexcept { return read_in_; }
 
   /// There must be a segment() that is writable(). A segment made later begins with the constants written last.
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraParams&) noexcept;
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraConstants&) noexcept;
+  /// Parameters in the segment's layout.
+  void write_params(std::string_view image) noexcept {
+    has_written_ = true;
+    segment_->write_params(image);
+  }
 
   /// Lets go; keep() attaches again.
   void close() noexcept { segment_.reset(); }
@@ -103,10 +112,8 @@ class Link {
   /// The layout that the record in the image is written in; a fault when it reads in none, or in both alike.
   tl::expected<const SegmentLayout*, transport::Fault> layout_of_params(const RecordImage& image) noexcept;
   tl::expected<const SegmentLayout*, transport::Fault> layout_of_constants(const RecordImage& image) noexcept;
-  template <typename Record>
-  ReadResult hand_out(const tl::expected<Record, wire::Fault>& record,
-                      const tl::expected<const SegmentLayout*, transport::Fault>& layout, Record& into,
-                      transport::Fault& fault) noexcept;
+  /// As layout_of_params(), without judging what is known.
+  tl::expected<const SegmentLayout*, transport::Fault> known_layout_of_params(const RecordImage& image) noexcept;
 
   Options options_;
   std::optional<Segment> segment_;
@@ -116,6 +123,9 @@ class Link {
   std::uint16_t constants_read_ = 0;
   bool constants_unread_ = false;
   const SegmentLayout* writer_layout_ = nullptr;  // of the records, as far as they have shown it
+  // Id and format of the last parameters that were read in the segment's own layout: the same words again are of the
+  // same writer, whose records need not be judged again.
+  std::optional<std::array<char, 8>> known_head_;
   wire::Layout read_in_{};
   bool had_company_ = false;
   bool has_written_ = false;

@@ -92,8 +92,8 @@ constexpr bool is_transient(SlotProblem p) noexcept { return is_absence(p) || p 
 /// A record as it lies in a segment, and the write counter it was current at; with it the bytes around it that the
 /// current record of smaller_generation() has.
 struct RecordImage {
-  std::array<char, 256> bytes{};
-  std::size_t begin = 0;  ///< where `bytes` begin in the segment
+  std::array<char, 256> bytes;  ///< as far as they were copied
+  std::size_t begin = 0;        ///< where `bytes` begin in the segment
   std::size_t at = 0, size = 0;
   std::uint16_t counter = 0;
 
@@ -173,6 +173,8 @@ class Segment {
   /// segment, a number that is not finite): then nothing is written. Must be writable().
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraParams&) noexcept;
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraConstants&) noexcept;
+  /// Writes parameters that are in the segment's layout already, of its `params_size`.
+  void write_params(std::string_view image) noexcept { put(layout_->params_counter, layout_->params, image); }
 
   /// trkMemRecreate: removes this segment and goes on in a fresh one with the same contents. On a fault there is no
   /// segment left: the object is closed.

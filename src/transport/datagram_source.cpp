@@ -70,10 +70,10 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
       continue;
     }
     if (ends_source(error)) return failed(error);
+    // With no time to wait, what is there was asked for.
+    if (deadline.has_passed()) return Event::idle;
     switch (wait_readable(socket_->fd(), stop_event(), deadline)) {
       case Wake::readable:
-        // With no time to wait, what is there was asked for already.
-        if (deadline.has_passed()) return Event::idle;
         break;
       case Wake::stopped:
         return Event::stopped;
