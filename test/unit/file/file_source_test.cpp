@@ -357,7 +357,7 @@ TEST_F(PlayFile, WhatCannotBePlayedIsRefusedAtOpening) {
 
 TEST_F(PlayFile, WhatTheSinkWroteComesBack) {
   SinkSettings sink_settings;
-  sink_settings.path = path;
+  sink_settings.path = *RecordingName::parse(path);
   sink_settings.time_code = {1, 2, 3, 4, 2};
   const auto sink = open_sink(sink_settings);
   wire::CameraParams params;
