@@ -138,6 +138,8 @@ class Gate {
 class GatedSink final : public transport::Sink {
  public:
   GatedSink(std::shared_ptr<Gate> gate, std::string name) : gate_(std::move(gate)), name_(std::move(name)) {}
+  /// The gate outlives the sink.
+  GatedSink(Gate& gate, std::string name) : GatedSink(std::shared_ptr<Gate>(&gate, [](Gate*) {}), std::move(name)) {}
   std::string name() const override { return name_; }
 
  private:
