@@ -24,7 +24,7 @@ TEST(Endpoints, AnUnknownOptionListsTheKnownOfTheDirection) {
   EXPECT_THAT(write_error("shm:7?colour=red"), HasSubstr("layout, mode, recreate"));
   EXPECT_THAT(read_error("shm:7?colour=red"), HasSubstr("none"));
   EXPECT_THAT(read_error("file:a?colour=red"), HasSubstr("rate, speed, loop, time, date"));
-  EXPECT_THAT(write_error("file:a?colour=red"), HasSubstr("timecode, overwrite"));
+  EXPECT_THAT(write_error("file:a?colour=red"), HasSubstr("timecode, rate, number, overwrite"));
   EXPECT_THAT(write_error("shm:7?colour=red"), HasSubstr("format, preset, id"));
   EXPECT_THAT(read_error("udp://:7000?format=euler"), HasSubstr("format is for writing"));
 }
@@ -34,7 +34,7 @@ TEST(Endpoints, AnOptionOfTheOtherDirectionIsReportedAsSuch) {
   EXPECT_THAT(write_error("udp://h:7000?allow=h"), HasSubstr("allow is for reading"));
   EXPECT_THAT(read_error("shm:7?recreate=1"), HasSubstr("recreate is for writing"));
   EXPECT_THAT(read_error("file:a?overwrite=1"), HasSubstr("overwrite is for writing"));
-  EXPECT_THAT(write_error("file:a?rate=50"), HasSubstr("rate is for reading"));
+  EXPECT_THAT(write_error("file:a?speed=2"), HasSubstr("speed is for reading"));
 }
 
 TEST(Endpoints, ABadValueNamesKeyValueAndWhatIsAllowed) {
