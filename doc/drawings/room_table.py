@@ -22,7 +22,7 @@ ROOMS = {
     "shm": Room("trk in shared memory", ("base", "transport", "wire")),
     "file": Room("trk in files", ("base", "transport", "wire")),
     "endpoints": Room("URLs, receivers by name", ("base", "file", "shm", "transport", "trk", "wire")),
-    "c_api": Room("the document's functions", ("file", "shm", "transport", "trk", "wire")),
+    "c_api": Room("the document's functions", ("base", "file", "shm", "transport", "trk", "wire")),
     "bridge": Room("pipelines, stamps, diagnostics", ("base", "camera", "transport", "wire")),
     "ros": Room("messages, frames, parameters", ("base", "bridge", "camera", "endpoints", "transport", "wire"), ros=True),
     "nodes": Room("nodes and nodelets", ("base", "bridge", "camera", "ros", "transport"), ros=True),
@@ -32,7 +32,7 @@ ROOMS = {
     "monitor": Room("trk monitor", ("base", "camera", "cli", "transport", "wire")),
     "bag": Room("trk bag", ("base", "bridge", "camera", "cli", "file", "ros", "transport", "wire"), ros=True),
     "tools": Room("trk", ("base", "bridge", "cli", "endpoints", "monitor", "transport", "wire"), uses_with_ros=("bag",)),
-    "programs": Room("six test programs", ("c_api", "camera", "cli", "wire")),
+    "programs": Room("six test programs", ("base", "c_api", "camera", "cli", "wire")),
 }
 
 

@@ -3,6 +3,7 @@
 // scripts rely on: 0 done, 1 not.
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -17,7 +18,6 @@
 #include "cli/stop_signals.h"
 #include "motion.h"
 #include "print.h"
-#include "transport/scheme.h"
 #include "trk_bridge/wire/format.h"
 #include "trk_file.h"
 #include "trk_mem.h"
@@ -39,10 +39,12 @@ void require(trkError error, const std::string& what) {
 
 /// A whole number; whether it is a slot or a port, the interface decides.
 int number_from(const std::string& text, const std::string& what) {
-  constexpr int most = 1'000'000;
-  const auto number = transport::whole_number(text, -most, most);
-  if (!number) throw std::runtime_error(what + " '" + text + "': must be a whole number");
-  return *number;
+  int number = 0;
+  const char* const end = text.data() + text.size();
+  if (const auto read = std::from_chars(text.data(), end, number); read.ec != std::errc{} || read.ptr != end) {
+    throw std::runtime_error(what + " '" + text + "': must be a whole number");
+  }
+  return number;
 }
 
 /// The mask of the words from `first` on.

@@ -53,7 +53,7 @@ struct SourceStatistics {
   std::uint64_t unknown_format_bits = 0;  ///< records with bits above wire::known_format_bits
   std::uint64_t reattached = 0;           ///< shared memory: segments attached to after the first
   Sender last_refused;
-  std::string error;        ///< when failed: one line for a person
+  std::string error;  ///< when failed: one line for a person
   /// When waiting, and whenever nothing can come: "slot 7: no segment", "udp port 7000: bound, nothing received yet",
   /// "udp port 7000: interface eth0 is down".
   std::string waiting_for;
