@@ -135,6 +135,7 @@ TEST(ParameterReader, TheRemedyDeletesWhatIsOnTheMasterAndRefused) {
   node.fault("source", "must be given");
   auto cameras = node.map("cameras");
   auto one = cameras->map("one");
+  one->know("rate");
   one->refuse_unknown();
   std::string text;
   try {
