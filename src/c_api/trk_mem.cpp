@@ -48,20 +48,6 @@ const shm::SegmentLayout* layout_to_make() {
   return layout;
 }
 
-// While others make or remove the segment; a maker that takes longer has died or is none.
-constexpr int open_attempts = 200;
-constexpr timespec open_pause{0, 1'000'000};
-
-/// Attaches, or makes the segment. Opening is the one call that waits, up to 0.2 s.
-tl::expected<void, SlotFault> open(Link& memory) {
-  auto opened = memory.keep_for_writing(Link::Clock::now());
-  for (int i = 1; i < open_attempts && !opened && shm::is_transient(opened.error().problem); ++i) {
-    ::nanosleep(&open_pause, nullptr);
-    opened = memory.keep_for_writing(Link::Clock::now());
-  }
-  return opened;
-}
-
 trkError error_of(const SlotFault& fault) noexcept {
   if (fault.problem == SlotProblem::foreign) return trkInvalidVersion;
   return trkFailed;
@@ -162,7 +148,7 @@ trkError trkMemOpen(int slot, trkHandle* handle) {
     options.recreate = (c_api::configured.load() & trkMemRecreate) != 0;
     if (options.create == nullptr) return trkFailed;
     Memory memory(options);
-    if (const auto opened = c_api::open(memory); !opened) return c_api::error_of(opened.error());
+    if (const auto opened = memory.open_for_writing(); !opened) return c_api::error_of(opened.error());
     static std::once_flag registered;
     std::call_once(registered, [] { std::atexit(c_api::close_at_exit); });
     *handle = handles<Memory>().open(std::move(memory));

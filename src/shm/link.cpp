@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <ctime>
 
 #include "slot.h"
 #include "wire/layout_detector.h"
@@ -85,6 +86,18 @@ tl::expected<void, SlotFault> Link::keep_for_writing(Clock::time_point now) noex
   const bool is_due = look_due(now, check_period);
   if (!is_due && !options_.looks_at_every_write && !options_.recreate) return {};
   return check(is_due, options_.create, now);
+}
+
+tl::expected<void, SlotFault> Link::open_for_writing() noexcept {
+  // A maker that takes longer has died or is none.
+  constexpr int attempts = 200;
+  constexpr timespec pause{0, 1'000'000};
+  auto opened = keep_for_writing(Clock::now());
+  for (int i = 1; i < attempts && !opened && is_transient(opened.error().problem); ++i) {
+    ::nanosleep(&pause, nullptr);
+    opened = keep_for_writing(Clock::now());
+  }
+  return opened;
 }
 
 tl::expected<void, SlotFault> Link::check(bool look_up, const SegmentLayout* create, Clock::time_point now) noexcept {

@@ -23,8 +23,8 @@ enum class ReadResult : std::uint8_t {
 };
 
 /// Reads and writes one slot over all the segments it has in the course of time. Of a segment it attaches to, it reads
-/// parameters written from then on, and constants written before as well. One thread at a time; allocates nothing and
-/// never waits.
+/// parameters written from then on, and constants written before as well. One thread at a time; allocates nothing and,
+/// but for open_for_writing(), never waits.
 ///
 /// Programs of the smaller generation (smaller_generation()) can attach to a segment and write records of their own
 /// into it. So a record is read in both layouts: it counts in the one in which it is plausible, and where it is in
@@ -61,6 +61,10 @@ class Link {
   /// For writing: as a rule looks at every call, for a write into a removed segment would be lost, and makes one where
   /// there is none.
   [[nodiscard]] tl::expected<void, SlotFault> keep_for_writing(Clock::time_point now) noexcept;
+
+  /// The same, before the first write: the one function that waits, up to 0.2 s for others that make or remove the
+  /// segment.
+  [[nodiscard]] tl::expected<void, SlotFault> open_for_writing() noexcept;
 
   /// Null without a segment.
   const Segment* segment() const noexcept { return segment_ ? &*segment_ : nullptr; }

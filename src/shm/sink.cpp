@@ -46,9 +46,9 @@ class ShmSink final : public transport::Sink {
 
  private:
   void get_ready() override {
-    const auto open = link_.keep_for_writing(Link::Clock::now());
-    if (!open && !is_transient(open.error().problem)) throw TransportError("shm " + describe(open.error()));
-    if (open && !link_.segment()->writable()) throw TransportError(name_ + ": no permission to write to the segment");
+    const auto open = link_.open_for_writing();
+    if (!open) throw TransportError("shm " + describe(open.error()));
+    if (!link_.segment()->writable()) throw TransportError(name_ + ": no permission to write to the segment");
   }
   Written put(const wire::CameraParams& params) override { return write_record(params); }
   Written put(const wire::CameraConstants& constants) override { return write_record(constants); }
