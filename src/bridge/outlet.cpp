@@ -249,7 +249,8 @@ void Outlet::abandon() {
   work_->drop_listener();
   static const char here = 0;
   keep_library_of(&here);
-  keep_library_of(&typeid(work_->writer().sink()));
+  const transport::Sink& sink = work_->writer().sink();
+  keep_library_of(&typeid(sink));
   thread_.detach();
   is_abandoned_ = true;
 }

@@ -12,6 +12,7 @@
 #include "handles.h"
 #include "records.h"
 #include "shm/link.h"
+#include "trk_bridge/transport/sample.h"
 
 namespace trk_bridge::c_api {
 namespace {
