@@ -373,13 +373,9 @@ TEST(CameraPipeline, LateFieldsAreNeverPublishedOutOfOrder) {
   for (int by = 1; by <= 8; ++by) {
     // Every tenth field comes `by` places later; then one field before `by` others.
     auto one_late = all_fields();
-    for (std::size_t i = 0; i + 10 < one_late.size(); i += 10) {
-      std::rotate(one_late.begin() + i, one_late.begin() + i + 1, one_late.begin() + i + 1 + by);
-    }
+    for (auto i = one_late.begin(); one_late.end() - i > 10; i += 10) std::rotate(i, i + 1, i + 1 + by);
     auto one_early = all_fields();
-    for (std::size_t i = 0; i + 10 < one_early.size(); i += 10) {
-      std::rotate(one_early.begin() + i, one_early.begin() + i + by, one_early.begin() + i + by + 1);
-    }
+    for (auto i = one_early.begin(); one_early.end() - i > 10; i += 10) std::rotate(i, i + by, i + by + 1);
     for (const auto& fields : {one_late, one_early}) {
       CameraPipeline pipeline(CameraOptions{}, 50);
       const auto published = published_of([](int i) { return i; }, fields, pipeline);

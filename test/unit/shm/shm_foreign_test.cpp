@@ -102,7 +102,8 @@ TEST_F(Confused, a_segment_that_is_being_made_is_waited_for_and_left_alone) {
   EXPECT_EQ(source->statistics().state, SourceState::waiting);
   EXPECT_THAT(source->statistics().waiting_for, HasSubstr("its maker has not finished it"));
   // The maker, this process, lives: a writer does not take over either.
-  const auto sink = open_sink(url);
+  EXPECT_THAT(refusal(url), HasSubstr("its maker has not finished it"));
+  const auto sink = endpoints::parse_sink(url)->open();
   const auto written = sink->write(wire::CameraParams{});
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().reason, SinkReason::gone);

@@ -107,7 +107,7 @@ constexpr auto no_waiting = 50ms;
 
 TEST_F(Hostile, a_segment_that_nobody_finishes_holds_no_writer) {
   slot.make_segment(544);
-  const auto sink = open_sink(url());
+  const auto sink = endpoints::parse_sink(url())->open();
   EXPECT_LT(least_time_of([&] { EXPECT_FALSE(sink->write(params(1))); }), no_waiting);
   EXPECT_EQ(sink->write(params(1)).error().reason, transport::SinkReason::gone);
   slot.remove();
