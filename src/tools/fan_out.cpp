@@ -33,7 +33,7 @@ std::string first_report(const bridge::Loss& loss, const transport::SinkForm& fo
   if (fault != nullptr && fault->reason == SinkReason::no_constants) {
     return why(loss.cause) + "; they are left out until constants come";
   }
-  const std::string once = why(loss.cause) + " (reported once)";
+  std::string once = why(loss.cause) + " (reported once)";
   if (!std::holds_alternative<CameraReason>(loss.cause)) return once;
   const auto words = form.format ? wire::format_to_words(*form.format) : std::string("as received");
   return "id " + std::to_string(loss.id) + ": cannot be passed on as \"" + words + "\": " + once;

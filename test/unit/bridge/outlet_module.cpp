@@ -1,17 +1,49 @@
 // As a nodelet's library: loaded, used, and unloaded while a sink does not answer.
+#include <cerrno>
 #include <memory>
+#include <string>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include "bridge/outlet.h"
-#include "trk_bridge/endpoints/endpoints.h"
 #include "udp.h"
+
+namespace trk_bridge::test {
+namespace {
+
+/// A byte for each record.
+class FifoSink final : public transport::Sink {
+ public:
+  explicit FifoSink(const std::string& path) : fd_(::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {}
+  ~FifoSink() override { ::close(fd_); }
+  std::string name() const override { return "fifo"; }
+
+ private:
+  transport::Written put_byte() const {
+    const char byte = 'x';
+    if (::write(fd_, &byte, 1) == 1) return {};
+    return tl::unexpected(transport::SinkFault{transport::SinkReason::system, {}, errno});
+  }
+  transport::Written put(const wire::CameraParams&) override { return put_byte(); }
+  transport::Written put(const wire::CameraConstants&) override { return put_byte(); }
+  transport::Written finish() override { return {}; }
+
+  const int fd_;
+};
+
+}  // namespace
+}  // namespace trk_bridge::test
 
 using namespace trk_bridge;
 
-/// Writes to a FIFO until it is full, and leaves it to itself. False where that is not what happened.
-extern "C" bool leave_stuck(const char* fifo) {
-  bridge::Outlet outlet(endpoints::parse_sink(std::string("file:") + fifo).value(), {});
-  outlet.write(test::constants());
-  for (std::uint64_t counter = 1; counter <= 2000; ++counter) outlet.write(test::params(counter));
+/// Writes so many records to a FIFO that takes less, and leaves it to itself. False where that is not what happened.
+extern "C" __attribute__((visibility("default"))) bool leave_stuck(const char* fifo, int records) {
+  transport::SinkEndpoint endpoint;
+  endpoint.blocking = transport::Blocking::storage;
+  endpoint.open = [fifo] { return std::make_unique<test::FifoSink>(fifo); };
+  bridge::Outlet outlet(endpoint, {});
+  for (int i = 0; i < records; ++i) outlet.write(test::params(1));
   const auto closed = outlet.close();
   return !closed && closed.error().reason == transport::SinkReason::no_answer;
 }
