@@ -60,7 +60,7 @@ TfInput::~TfInput() {
 }
 
 void TfInput::receive(const ::ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static) {
-  const std::string sender = event.getPublisherName();
+  const std::string& sender = event.getPublisherName();
   const auto ros_now = ros1::from_time(::ros::Time::now());
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const auto& transform : event.getConstMessage()->transforms) {
