@@ -6,12 +6,12 @@
 #include <functional>
 #include <future>
 #include <memory>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 
+#include "deadline.h"
 #include "error_of.h"
 #include "gated_sink.h"
 #include "temporary_directory.h"
@@ -230,11 +230,7 @@ TEST(Outlet, WhatCannotBeOpenedIsTriedAgain) {
   EXPECT_EQ(outlet.state().cannot_open, "take.trk: it exists");
   EXPECT_FALSE(outlet.state().is_open);
   gate.set_opening_error("");
-  const auto end = std::chrono::steady_clock::now() + test::deadline;
-  while (!outlet.state().is_open && std::chrono::steady_clock::now() < end) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  EXPECT_TRUE(outlet.state().is_open);
+  EXPECT_TRUE(test::becomes_true([&] { return outlet.state().is_open; }));
   EXPECT_EQ(outlet.state().cannot_open, "");
 }
 

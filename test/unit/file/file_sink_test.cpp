@@ -1,6 +1,5 @@
 // Recordings as a program makes them, by URL.
 #include <algorithm>
-#include <chrono>
 #include <ctime>
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "deadline.h"
 #include "error_of.h"
 #include "file/recording_name.h"
 #include "file/take.h"
@@ -209,11 +209,8 @@ TEST_F(FileSinkTest, OneThatCannotBeOpenedIsOpenedByAWriteWhenItCan) {
   ASSERT_TRUE(sink->write(constants()));
   EXPECT_EQ(sink->write(params(1), moment).error().reason, SinkReason::exists);
   std::filesystem::remove(directory / "there.trk");
-  const auto deadline = std::chrono::steady_clock::now() + test::deadline;
   std::uint64_t counter = 1;
-  while (!sink->write(params(++counter), moment + second) && std::chrono::steady_clock::now() < deadline) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
+  EXPECT_TRUE(test::becomes_true([&] { return sink->write(params(++counter), moment + second).has_value(); }));
   ASSERT_TRUE(sink->close());
   const auto take = read_take(directory / "there.trk");
   ASSERT_EQ(take.params.size(), 1u);
@@ -239,10 +236,7 @@ TEST_F(FileSinkTest, AFifoWaitsForItsReader) {
   ASSERT_TRUE(sink->write(constants()));
   EXPECT_EQ(sink->write(params(1)).error().reason, SinkReason::no_reader);
   const transport::Descriptor reader(::open((directory / "fifo").c_str(), O_RDONLY | O_NONBLOCK));
-  const auto deadline = std::chrono::steady_clock::now() + test::deadline;
-  while (!sink->write(params(2)) && std::chrono::steady_clock::now() < deadline) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
+  EXPECT_TRUE(test::becomes_true([&] { return sink->write(params(2)).has_value(); }));
   EXPECT_EQ(sink->notice(), "");
   char begin[6] = {};
   EXPECT_EQ(::read(reader.get(), begin, 5), 5);

@@ -190,7 +190,7 @@ TEST(View, PlainLinesAreOneACamera) {
                               HasSubstr("  x   1.5000  y  -2.0000"), HasSubstr("chip 8.800 x 6.600 mm")));
 }
 
-TEST(View, PlainLinesTellANewMalformedRecordOnce) {
+TEST(View, PlainLinesShowEachNewMalformedRecordOnce) {
   auto state = troubled_state(1);
   EXPECT_THAT(plain_lines_of(state, 1), SizeIs(1));
   state.malformed->age = 0.9;

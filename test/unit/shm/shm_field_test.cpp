@@ -177,6 +177,8 @@ TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_let_go_of_and_read_aga
   ASSERT_TRUE(tracker.open());
   const int id = tracker.id();
   constexpr int good = 0, not_let_go = 1, no_record = 2;
+  int has_read[2] = {};
+  ASSERT_EQ(::pipe(has_read), 0);
   const pid_t child = ::fork();
   if (child == 0) {
     // What the parent has attached came along by fork().
@@ -185,23 +187,22 @@ TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_let_go_of_and_read_aga
     if (::setuid(65534) != 0) ::_exit(98);
     const auto source = open_source(url());
     if (!receive_until(*source, [&] { return source->statistics().records == 1; })) ::_exit(no_record);
+    if (::write(has_read[1], "1", 1) != 1) ::_exit(5);
     if (!receive_until(*source, [&] { return attachments(id) == 0; })) ::_exit(not_let_go);
     if (source->statistics().waiting_for.find("nobody has attached to its segment") == std::string::npos) ::_exit(3);
     // What came while nobody was attached is read as well.
     if (!receive_until(*source, [&] { return source->statistics().records == 2; })) ::_exit(no_record);
     ::_exit(std::get<wire::CameraParams>(into.sample.record) == params(2) ? good : 4);
   }
-  const auto wait_for = [](const std::function<bool()>& done) {
-    const auto end = Clock::now() + test::deadline;
-    while (!done() && Clock::now() < end) std::this_thread::sleep_for(1ms);
-    return done();
-  };
-  EXPECT_TRUE(wait_for([&] { return tracker.connected() == 2; }));
+  EXPECT_TRUE(test::becomes_true([&] { return tracker.connected() == 2; }));
   tracker.write(params(1));
   tracker.connected() += 1;  // so that closing leaves the segment
-  std::this_thread::sleep_for(50ms);
+  ::close(has_read[1]);
+  char byte = 0;
+  EXPECT_EQ(::read(has_read[0], &byte, 1), 1);
+  ::close(has_read[0]);
   tracker.close();
-  EXPECT_TRUE(wait_for([&] { return attachments(id) == 0; }));
+  EXPECT_TRUE(test::becomes_true([&] { return attachments(id) == 0; }));
   EXPECT_EQ(slot.segment(), id) << "it is another user's";
   // The kernel's times are in seconds.
   std::this_thread::sleep_for(1100ms);
