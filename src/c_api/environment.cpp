@@ -2,6 +2,9 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <string>
+
+#include "transport/scheme.h"
 
 namespace trk_bridge::c_api {
 
@@ -10,10 +13,8 @@ std::optional<wire::LayoutChoice> layout_from_environment() {
   if (word == nullptr) return wire::LayoutChoice{};
   const auto choice = wire::layout_choice_from_word(word);
   if (!choice) {
-    std::fprintf(stderr,
-                 "libtrk: TRK_LAYOUT=%s: allowed are auto, document and identified, the latter two also followed by "
-                 "_lp64, _llp64 or _i386 and that by _le or _be\n",
-                 word);
+    const std::string allowed(transport::layout_allowed);
+    std::fprintf(stderr, "libtrk: TRK_LAYOUT=%s: allowed are %s\n", word, allowed.c_str());
   }
   return choice;
 }

@@ -58,7 +58,7 @@ class Handles {
     Entry* const entry = find(handle);
     if (entry == nullptr) return trkInvalidHandle;
     if (!entry->turn.wait()) return trkFailed;
-    const Unlock unlock{entry->turn};
+    const std::lock_guard<TurnLock> unlock(entry->turn, std::adopt_lock);
     return entry->handle == handle ? use(*entry->transfer) : trkInvalidHandle;
   }
 
@@ -70,7 +70,7 @@ class Handles {
     if (!entry->turn.wait()) return trkFailed;
     trkError ended = trkInvalidHandle;
     {
-      const Unlock unlock{entry->turn};
+      const std::lock_guard<TurnLock> unlock(entry->turn, std::adopt_lock);
       if (entry->handle != handle) return trkInvalidHandle;
       ended = end(*entry->transfer);
       entry->clear();
@@ -85,7 +85,7 @@ class Handles {
     for (auto& place : entries_) {
       Entry* const entry = place.load();
       if (entry == nullptr || !entry->turn.wait()) continue;
-      const Unlock unlock{entry->turn};
+      const std::lock_guard<TurnLock> unlock(entry->turn, std::adopt_lock);
       if (entry->transfer) handles.push_back(entry->handle);
     }
     return handles;
@@ -118,11 +118,6 @@ class Handles {
       handle = nullptr;
       transfer.reset();
     }
-  };
-
-  struct Unlock {
-    TurnLock& turn;
-    ~Unlock() { turn.unlock(); }
   };
 
   static std::size_t index_of(trkHandle handle) noexcept {
