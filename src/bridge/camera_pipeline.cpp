@@ -80,7 +80,9 @@ CameraUpdate CameraPipeline::process(const wire::CameraParams& params, const tra
   const camera::Converted converted = converter_.convert(params);
   const auto reason = camera::why_no_camera(converted, sample.has_lens);
   if (!reason) {
-    follow(sample.sender, now);
+    if (claim == SenderLock::Claim::free) note_failover();
+    lock_.take(sample.sender, now);
+    statistics_.ignores_ports = lock_.ignores_ports();
   } else if (claim == SenderLock::Claim::free) {
     return drop(*reason);
   }
@@ -112,14 +114,11 @@ void CameraPipeline::ignore(const transport::Sender& sender) noexcept {
   statistics_.foreign_sender = sender;
 }
 
-void CameraPipeline::follow(const transport::Sender& sender, std::int64_t now) noexcept {
-  if (lock_.holder() && lock_.claim(sender, now) == SenderLock::Claim::free) {
-    ++statistics_.failovers;
-    statistics_.silent_sender = *lock_.holder();
-    sequence_.forget_newest();
-  }
-  lock_.take(sender, now);
-  statistics_.ignores_ports = lock_.ignores_ports();
+void CameraPipeline::note_failover() noexcept {
+  if (!lock_.holder()) return;
+  ++statistics_.failovers;
+  statistics_.silent_sender = *lock_.holder();
+  sequence_.forget_newest();
 }
 
 bool CameraPipeline::is_new(const wire::CameraParams& params, const transport::Sample& sample) noexcept {

@@ -80,8 +80,8 @@ class CameraPipeline {
   CameraUpdate process(const wire::CameraConstants&, const transport::Sample&, std::int64_t now) noexcept;
   CameraUpdate process(const wire::CameraParams&, const transport::Sample&, std::int64_t now) noexcept;
   void ignore(const transport::Sender&) noexcept;
-  /// The sender of a record that is a camera is followed from now on.
-  void follow(const transport::Sender&, std::int64_t now) noexcept;
+  /// Another sender than the one before, if there was one, is followed from now on.
+  void note_failover() noexcept;
   bool is_new(const wire::CameraParams&, const transport::Sample&) noexcept;
   std::optional<std::int64_t> stamp(std::int64_t arrival) noexcept;
   void add_lens(const camera::Converted&, CameraUpdate&) noexcept;
