@@ -1,4 +1,4 @@
-// Plain sockets on the loopback, as a tracker or a receiver has them, and records to send.
+// Plain sockets on the loopback, as a tracker or a receiver has them.
 #pragma once
 
 #include <arpa/inet.h>
@@ -18,11 +18,11 @@
 #include <string>
 #include <string_view>
 
+#include "camera_records.h"
 #include "deadline.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/codec.h"
-#include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::test {
 
@@ -101,27 +101,6 @@ inline std::uint16_t udp_port_in(const std::string& name) {
 }
 
 inline std::uint16_t port_of(const transport::Source& source) { return udp_port_in(source.name()); }
-
-inline wire::CameraParams params(std::uint64_t counter, std::uint32_t id = 0) {
-  wire::CameraParams p;
-  p.id = id;
-  p.format = wire::euler;
-  p.euler = {1.5, -2, 1.75, 30, -5, 0.25};
-  p.fov = 42;
-  p.focdist = 4.5;
-  p.counter = counter;
-  return p;
-}
-
-inline wire::CameraConstants constants(int width = 720, std::uint32_t id = 0) {
-  wire::CameraConstants c;
-  c.id = id;
-  c.image_width = width;
-  c.image_height = 576;
-  c.chip_width = c.fake_chip_width = 8.8;
-  c.chip_height = c.fake_chip_height = 6.6;
-  return c;
-}
 
 template <typename Record>
 std::string datagram(const Record& record, wire::WireForm form = {}) {

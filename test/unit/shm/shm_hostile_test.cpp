@@ -12,13 +12,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "camera_records.h"
 #include "deadline.h"
 #include "free_slot.h"
 #include "shm/segment.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
-#include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::shm {
 namespace {
@@ -32,14 +32,7 @@ using transport::Source;
 using transport::SourceState;
 using Clock = std::chrono::steady_clock;
 
-wire::CameraParams params(std::uint64_t counter) {
-  wire::CameraParams p;
-  p.format = wire::euler;
-  p.euler = {1, 2, 3, 4, 5, 6};
-  p.fov = 42;
-  p.counter = counter;
-  return p;
-}
+using test::params;
 
 /// The least of several times that `work` takes: what it takes by itself, on a busy machine as well.
 Clock::duration least_time_of(const std::function<void()>& work) {

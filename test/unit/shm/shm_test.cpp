@@ -8,13 +8,13 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "camera_records.h"
 #include "free_slot.h"
 #include "shm/scheme.h"
 #include "shm/segment.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
-#include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::shm {
 namespace {
@@ -34,23 +34,8 @@ using namespace std::chrono_literals;
 
 constexpr auto deadline = 5s;
 
-wire::CameraParams params(std::uint64_t counter) {
-  wire::CameraParams p;
-  p.format = wire::euler;
-  p.euler = {1, 2, 3, 4, 5, 6};
-  p.fov = 42;
-  p.counter = counter;
-  return p;
-}
-
-wire::CameraConstants constants(int width = 720) {
-  wire::CameraConstants c;
-  c.image_width = width;
-  c.image_height = 576;
-  c.chip_width = c.fake_chip_width = 6.4;
-  c.chip_height = c.fake_chip_height = 4.8;
-  return c;
-}
+using test::constants;
+using test::params;
 
 class Shm : public ::testing::Test {
  protected:

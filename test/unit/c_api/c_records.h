@@ -1,0 +1,26 @@
+// Records in the document's structures, and handles that are none.
+#pragma once
+
+#include "trk_struct.h"
+
+namespace trk_bridge::test {
+
+inline trkCameraParams params_in_c(unsigned long counter) {
+  trkCameraParams p{};
+  p.format = trkEuler;
+  p.t.e = {1, 2, 3, 4, 5, 6};
+  p.fov = 7;
+  p.counter = counter;
+  return p;
+}
+
+inline const trkCameraConstants constants_in_c = [] {
+  trkCameraConstants c{};
+  trkStringToConstants("720 576 10 10 0 0 6.4 4.8 6.5 4.9", &c);
+  return c;
+}();
+
+inline const trkHandle no_handles[] = {nullptr, reinterpret_cast<trkHandle>(1), reinterpret_cast<trkHandle>(-1),
+                                       reinterpret_cast<trkHandle>(0x74726B01)};
+
+}  // namespace trk_bridge::test

@@ -1,0 +1,226 @@
+// Transfer by shared memory, and every misuse of it.
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "c_records.h"
+#include "deadline.h"
+#include "free_slot.h"
+#include "trk_file.h"
+#include "trk_mem.h"
+#include "trk_net.h"
+
+namespace {
+
+using trk_bridge::test::becomes_true;
+using trk_bridge::test::constants_in_c;
+using trk_bridge::test::FreeSlot;
+using trk_bridge::test::no_handles;
+using trk_bridge::test::params_in_c;
+
+class Memory : public ::testing::Test {
+ protected:
+  ~Memory() override {
+    trkMemConfigure(trkMemDefault);
+    trkMemCloseAll();
+  }
+  FreeSlot slot;
+  trkHandle writer = nullptr, reader = nullptr;
+  trkCameraParams p{};
+  trkCameraConstants c{};
+};
+
+TEST_F(Memory, passes_parameters_and_constants) {
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
+  EXPECT_EQ(trkMemReadParams(reader, &p), trkUnavailable);
+  EXPECT_EQ(trkMemReadConstants(reader, &c), trkUnavailable);
+  const trkCameraParams sent = params_in_c(5);
+  ASSERT_EQ(trkMemWriteConstants(writer, &constants_in_c), trkOK);
+  ASSERT_EQ(trkMemWriteParams(writer, &sent), trkOK);
+  ASSERT_EQ(trkMemReadParams(reader, &p), trkOK);
+  EXPECT_EQ(std::memcmp(&p, &sent, sizeof p), 0);
+  EXPECT_EQ(trkMemReadParams(reader, &p), trkUnavailable);
+  ASSERT_EQ(trkMemReadConstants(reader, &c), trkOK);
+  EXPECT_EQ(std::memcmp(&c, &constants_in_c, sizeof c), 0);
+  EXPECT_EQ(trkMemReadConstants(reader, &c), trkUnavailable);
+  ASSERT_EQ(trkMemWriteConstants(writer, &constants_in_c), trkOK);
+  EXPECT_EQ(trkMemReadConstants(reader, &c), trkOK) << "written again is new again";
+}
+
+TEST_F(Memory, the_last_close_removes_it) {
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
+  EXPECT_EQ(trkMemClose(writer), trkOK);
+  EXPECT_TRUE(slot.has_file());
+  EXPECT_EQ(trkMemClose(reader), trkOK);
+  EXPECT_FALSE(slot.has_file());
+  EXPECT_EQ(slot.segment(), -1);
+}
+
+TEST_F(Memory, all_are_closed_at_once_any_number_of_times) {
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
+  trkMemCloseAll();
+  trkMemCloseAll();
+  EXPECT_FALSE(slot.has_file());
+  EXPECT_EQ(trkMemClose(writer), trkInvalidHandle);
+}
+
+TEST_F(Memory, configures_every_documented_flag) {
+  for (const unsigned kind : {unsigned{trkMemDefault}, unsigned{trkMemSysV}, unsigned{trkMemArena}}) {
+    for (const unsigned recreate : {0U, unsigned{trkMemRecreate}}) {
+      trkMemConfigure(kind | recreate);
+      ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+      EXPECT_EQ(trkMemClose(writer), trkOK);
+    }
+  }
+  EXPECT_EQ(trkMemRecreate, 0x10);
+}
+
+TEST_F(Memory, recreate_replaces_it_when_all_others_have_left) {
+  trkMemConfigure(trkMemDefault | trkMemRecreate);
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
+  const trkCameraParams sent = params_in_c(1);
+  ASSERT_EQ(trkMemWriteConstants(writer, &constants_in_c), trkOK);
+  ASSERT_EQ(trkMemWriteParams(writer, &sent), trkOK);
+  const int before = slot.segment();
+  ASSERT_EQ(trkMemClose(reader), trkOK);
+  ASSERT_EQ(trkMemWriteParams(writer, &sent), trkOK);
+  EXPECT_NE(slot.segment(), before);
+  ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
+  EXPECT_EQ(trkMemReadConstants(reader, &c), trkOK) << "the contents came along";
+}
+
+std::size_t size_of(const FreeSlot& slot) {
+  shmid_ds state{};
+  return ::shmctl(slot.segment(), IPC_STAT, &state) == 0 ? state.shm_segsz : 0;
+}
+
+TEST_F(Memory, is_made_for_every_program_of_today_unless_the_environment_says_otherwise) {
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  EXPECT_EQ(size_of(slot), 544U);
+  trkMemCloseAll();
+  struct Environment {
+    ~Environment() { ::unsetenv("TRK_LAYOUT"); }
+  } const restored;
+  for (const auto& [word, size] : std::vector<std::pair<const char*, std::size_t>>{
+           {"document", 528}, {"identified_i386", 524}, {"document_i386", 508}, {"auto", 544}}) {
+    ::setenv("TRK_LAYOUT", word, 1);
+    ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK) << word;
+    EXPECT_EQ(size_of(slot), size) << word;
+    trkMemCloseAll();
+  }
+  for (const char* word : {"", "documant", "identified_llp64"}) {
+    ::setenv("TRK_LAYOUT", word, 1);
+    ::testing::internal::CaptureStderr();
+    EXPECT_EQ(trkMemOpen(slot.number(), &writer), trkFailed) << word;
+    EXPECT_NE(::testing::internal::GetCapturedStderr().find(std::string("TRK_LAYOUT=") + word), std::string::npos);
+    EXPECT_FALSE(slot.has_file());
+  }
+}
+
+TEST_F(Memory, a_reader_that_is_alone_lets_go_and_comes_back) {
+  ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
+  EXPECT_TRUE(becomes_true([&] {
+    EXPECT_EQ(trkMemReadParams(reader, &p), trkUnavailable);
+    return !slot.has_file();
+  }));
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  ASSERT_EQ(trkMemWriteConstants(writer, &constants_in_c), trkOK);
+  EXPECT_TRUE(becomes_true([&] { return trkMemReadConstants(reader, &c) == trkOK; }));
+  EXPECT_EQ(std::memcmp(&c, &constants_in_c, sizeof c), 0);
+}
+
+TEST_F(Memory, memory_that_is_not_trk_is_of_an_invalid_version) {
+  const int id = slot.make_segment(300);
+  EXPECT_EQ(trkMemOpen(slot.number(), &writer), trkInvalidVersion);
+  EXPECT_EQ(slot.segment(), id);
+}
+
+TEST_F(Memory, misuse_gives_the_documents_codes) {
+  EXPECT_EQ(trkMemOpen(-1, &writer), trkFailed);
+  EXPECT_EQ(trkMemOpen(62, &writer), trkFailed);
+  EXPECT_EQ(trkMemOpen(slot.number(), nullptr), trkFailed);
+  EXPECT_FALSE(slot.has_file());
+  for (const trkHandle handle : no_handles) {
+    EXPECT_EQ(trkMemReadParams(handle, &p), trkInvalidHandle);
+    EXPECT_EQ(trkMemReadConstants(handle, &c), trkInvalidHandle);
+    EXPECT_EQ(trkMemWriteParams(handle, &p), trkInvalidHandle);
+    EXPECT_EQ(trkMemWriteConstants(handle, &c), trkInvalidHandle);
+    EXPECT_EQ(trkMemClose(handle), trkInvalidHandle);
+  }
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  EXPECT_EQ(trkMemReadParams(writer, nullptr), trkFailed);
+  EXPECT_EQ(trkMemReadConstants(writer, nullptr), trkFailed);
+  EXPECT_EQ(trkMemWriteParams(writer, nullptr), trkFailed);
+  EXPECT_EQ(trkMemWriteConstants(writer, nullptr), trkFailed);
+  trkCameraParams bad = params_in_c(1);
+  bad.format = trkEuler | trkVertical | trkDiagonal;
+  EXPECT_EQ(trkMemWriteParams(writer, &bad), trkFailed);
+  bad = params_in_c(1);
+  bad.fov = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(trkMemWriteParams(writer, &bad), trkFailed);
+  EXPECT_EQ(trkNetReadParams(writer, &p), trkInvalidHandle) << "another kind";
+  EXPECT_EQ(trkFileClose(writer), trkInvalidHandle) << "another kind";
+  EXPECT_EQ(trkMemClose(writer), trkOK);
+  EXPECT_EQ(trkMemClose(writer), trkInvalidHandle);
+  const trkHandle stale = writer;
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  EXPECT_NE(writer, stale) << "a stale handle is never mistaken for a new one";
+  EXPECT_EQ(trkMemWriteParams(stale, &p), trkInvalidHandle);
+}
+
+/// How a child of this process ends that runs `child`.
+template <typename Child>
+int exit_status_of(Child&& child) {
+  const pid_t process = ::fork();
+  if (process == 0) child();
+  int status = -1;
+  ::waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+TEST_F(Memory, the_exit_of_a_child_leaves_the_parents_memory) {
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  const trkCameraParams sent = params_in_c(5);
+  ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
+  EXPECT_EQ(exit_status_of([] { std::exit(7); }), 7);
+  EXPECT_EQ(exit_status_of([&] {
+              trkMemClose(writer);
+              trkMemCloseAll();
+              std::exit(8);
+            }),
+            8);
+  EXPECT_TRUE(slot.has_file());
+  EXPECT_EQ(trkMemWriteParams(writer, &sent), trkOK);
+  EXPECT_EQ(trkMemReadParams(reader, &p), trkOK);
+}
+
+TEST_F(Memory, a_signal_handler_that_ends_the_program_within_a_call_removes_the_memory) {
+  const int number = slot.number();
+  EXPECT_EQ(exit_status_of([number] {
+              static trkHandle handle;
+              if (trkMemOpen(number, &handle) != trkOK) std::_Exit(1);
+              std::signal(SIGALRM, [](int) {
+                trkMemCloseAll();
+                std::exit(3);
+              });
+              ::ualarm(20'000, 0);
+              const trkCameraParams sent = params_in_c(1);
+              for (;;) trkMemWriteParams(handle, &sent);
+            }),
+            3);
+  EXPECT_FALSE(slot.has_file());
+  EXPECT_EQ(slot.segment(), -1);
+}
+
+}  // namespace
