@@ -13,39 +13,13 @@
 
 #include <tl/expected.hpp>
 
+#include "segment_layout.h"
 #include "trk_bridge/wire/codec.h"
-#include "trk_bridge/wire/layout.h"
 
 namespace trk_bridge::shm {
 
 /// Slots are 0 to `slot_count` - 1.
 inline constexpr int slot_count = 62;
-/// What every trk segment begins with, as the maker's unsigned long.
-inline constexpr std::uint32_t segment_magic = 0x2357BD01;
-
-/// Where things lie in a segment, in bytes from its beginning. The size identifies the layout.
-struct SegmentLayout {
-  std::size_t size;
-  wire::Layout record;
-  std::size_t magic_size;  ///< of an unsigned long
-  std::size_t connected, params_counter, constants_counter;
-  std::size_t params_size, constants_size;
-  std::array<std::size_t, 2> params, constants;
-};
-
-/// What segments are made of where nobody says otherwise: every program of today can attach to it.
-inline constexpr wire::Layout default_layout{
-    wire::Generation::identified, wire::Abi::lp64,
-    __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? wire::ByteOrder::little : wire::ByteOrder::big};
-
-/// Null when no segment has this size.
-const SegmentLayout* layout_of_size(std::size_t) noexcept;
-/// Null when no segment on this machine has this record layout.
-const SegmentLayout* layout_of(wire::Layout) noexcept;
-/// The layout of the other generation when its programs can attach to a segment of this one, which is larger; they find
-/// the counters where it has them, and write records of their own. Null when there is none.
-const SegmentLayout* smaller_generation(const SegmentLayout&) noexcept;
-
 /// The slot's file, "/tmp/dmc_tracking_buffer.7". The slot must be valid.
 std::string slot_path(int slot);
 
@@ -92,8 +66,8 @@ constexpr bool is_transient(SlotProblem p) noexcept { return is_absence(p) || p 
 /// A record as it lies in a segment, and the write counter it was current at; with it the bytes around it that the
 /// current record of smaller_generation() has.
 struct RecordImage {
-  std::array<char, 256> bytes;  ///< as far as they were copied
-  std::size_t begin = 0;        ///< where `bytes` begin in the segment
+  std::array<char, record_room> bytes;  ///< as far as they were copied
+  std::size_t begin = 0;                ///< where `bytes` begin in the segment
   std::size_t at = 0, size = 0;
   std::uint16_t counter = 0;
 

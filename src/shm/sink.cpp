@@ -62,7 +62,7 @@ class ShmSink final : public transport::Sink {
     if (const auto kept = link_.keep_for_writing(Link::Clock::now()); !kept) {
       return tl::make_unexpected(fault_of(kept.error()));
     }
-    if (!link_.segment()->writable()) return tl::make_unexpected(SinkFault{SinkReason::system, {}, EACCES});
+    if (!link_.segment()->writable()) return transport::refused_by_system(EACCES);
     if (const auto written = link_.write(record); !written) {
       return tl::make_unexpected(SinkFault{SinkReason::not_encodable, written.error(), 0});
     }
