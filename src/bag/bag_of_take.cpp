@@ -251,8 +251,7 @@ void bag_of_take(const std::string& take_path, const std::string& bag_path, cons
     }
     run.end();
     if (const auto published = file.publish(); !published) {
-      check_written(bag_path,
-                    tl::unexpected(transport::SinkFault{transport::SinkReason::system, {}, published.error()}));
+      check_written(bag_path, transport::refused_by_system(published.error()));
     }
     report(camera.statistics(), err);
     err << "trk: " << bag_path << ": " << camera.statistics().sequence.accepted << " fields of camera "

@@ -238,7 +238,7 @@ Written Outlet::close() {
     const auto since = every_set_counts_ ? std::max(begin, busy_since) : begin;
     if (std::chrono::nanoseconds(now - since) > patience) {
       abandon();
-      return tl::unexpected(SinkFault{SinkReason::no_answer});
+      return transport::refused(SinkReason::no_answer);
     }
   }
   thread_.join();

@@ -16,11 +16,10 @@ namespace trk_bridge::file {
 namespace {
 
 using transport::Descriptor;
+using transport::refused;
+using transport::refused_by_system;
 using transport::SinkFault;
 using transport::SinkReason;
-
-tl::unexpected<SinkFault> fault(SinkReason reason) { return tl::unexpected(SinkFault{reason}); }
-tl::unexpected<SinkFault> system_fault(int error) { return tl::unexpected(SinkFault{SinkReason::system, {}, error}); }
 
 /// Whether `fd` still is what `path` names: another writer may have finished between opening and locking.
 bool is_named(int fd, const std::string& path) {
@@ -38,10 +37,10 @@ bool is_fifo_there(const std::string& path) {
 /// Empties the locked file, or says why not.
 tl::expected<void, SinkFault> empty(int fd, bool overwrite) {
   struct stat there {};
-  if (::fstat(fd, &there) != 0) return system_fault(errno);
-  if (!S_ISREG(there.st_mode)) return fault(SinkReason::not_a_file);
-  if (there.st_size > 0 && !overwrite) return fault(SinkReason::left_over);
-  if (::ftruncate(fd, 0) != 0) return system_fault(errno);
+  if (::fstat(fd, &there) != 0) return refused_by_system(errno);
+  if (!S_ISREG(there.st_mode)) return refused(SinkReason::not_a_file);
+  if (there.st_size > 0 && !overwrite) return refused(SinkReason::left_over);
+  if (::ftruncate(fd, 0) != 0) return refused_by_system(errno);
   return {};
 }
 
@@ -52,11 +51,11 @@ tl::expected<Descriptor, SinkFault> create_locked(const std::string& part, const
     // Of a FIFO that has this name, no reader is waited for.
     Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | only_new, 0666));
     if (!file.is_open()) {
-      if (errno == ENXIO) return fault(SinkReason::not_a_file);
-      return only_new != 0 && errno == EEXIST ? fault(SinkReason::in_use) : system_fault(errno);
+      if (errno == ENXIO) return refused(SinkReason::not_a_file);
+      return only_new != 0 && errno == EEXIST ? refused(SinkReason::in_use) : refused_by_system(errno);
     }
     if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
-      return errno == EWOULDBLOCK ? fault(SinkReason::in_use) : system_fault(errno);
+      return errno == EWOULDBLOCK ? refused(SinkReason::in_use) : refused_by_system(errno);
     }
     if (!is_named(file.get(), part)) continue;
     if (const auto emptied = empty(file.get(), options.overwrite); !emptied) return tl::unexpected(emptied.error());
@@ -67,8 +66,8 @@ tl::expected<Descriptor, SinkFault> create_locked(const std::string& part, const
 /// A FIFO that a program reads; writes to it wait.
 tl::expected<Descriptor, SinkFault> open_fifo(const std::string& path) {
   Descriptor fifo(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
-  if (!fifo.is_open()) return errno == ENXIO ? fault(SinkReason::no_reader) : system_fault(errno);
-  if (::fcntl(fifo.get(), F_SETFL, 0) != 0) return system_fault(errno);
+  if (!fifo.is_open()) return errno == ENXIO ? refused(SinkReason::no_reader) : refused_by_system(errno);
+  if (::fcntl(fifo.get(), F_SETFL, 0) != 0) return refused_by_system(errno);
   return fifo;
 }
 
@@ -126,10 +125,8 @@ Content content_of(int fd, std::int64_t size) {
 
 /// "take.recovered.trk" of "take.trk", "take.recovered-2.trk", …
 std::string recovered_name(const std::string& path, int number) {
-  const std::size_t name = path.rfind('/') + 1;  // 0 where there is none
-  const std::size_t dot = path.rfind('.');
-  const std::size_t end = dot == std::string::npos || dot <= name ? path.size() : dot;
-  return path.substr(0, end) + ".recovered" + (number > 1 ? "-" + std::to_string(number) : "") + path.substr(end);
+  const std::size_t ending = ending_of(path);
+  return path.substr(0, ending) + ".recovered" + (number > 1 ? "-" + std::to_string(number) : "") + path.substr(ending);
 }
 
 }  // namespace
@@ -137,6 +134,12 @@ std::string recovered_name(const std::string& path, int number) {
 std::string directory_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? "./" : path.substr(0, slash + 1);
+}
+
+std::size_t ending_of(const std::string& path) {
+  const std::size_t name = path.rfind('/') + 1;  // 0 where there is none
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string::npos || dot <= name ? path.size() : dot;
 }
 
 PartFile::PartFile(const std::string& path, bool overwrite, Descriptor descriptor, bool is_fifo)
@@ -157,11 +160,11 @@ tl::expected<PartFile, SinkFault> PartFile::open(const std::string& path, const 
 
 tl::expected<void, SinkFault> PartFile::check(const std::string& path, const Options& options) {
   struct stat there {};
-  if (path.empty()) return system_fault(ENOENT);
+  if (path.empty()) return refused_by_system(ENOENT);
   if (options.fifo == Fifo::allowed && is_fifo_there(path)) return {};
   if (::lstat(path.c_str(), &there) != 0) return {};
-  if (!S_ISREG(there.st_mode) && !S_ISLNK(there.st_mode)) return fault(SinkReason::not_a_file);
-  if (!options.overwrite) return fault(SinkReason::exists);
+  if (!S_ISREG(there.st_mode) && !S_ISLNK(there.st_mode)) return refused(SinkReason::not_a_file);
+  if (!options.overwrite) return refused(SinkReason::exists);
   return {};
 }
 

@@ -1,6 +1,7 @@
 // A file that has its final name only when it is whole.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -72,5 +73,7 @@ std::optional<std::string> recover_part(const std::string& path);
 
 /// The directory that a path names a file in, with its slash; "./" where it names none.
 std::string directory_of(const std::string& path);
+/// Where the ending of the file's name begins: at its last dot, or at the end where it has none.
+std::size_t ending_of(const std::string& path);
 
 }  // namespace trk_bridge::file

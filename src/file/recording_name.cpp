@@ -56,22 +56,15 @@ std::vector<std::string> files_like(const std::string& pattern) {
   return names;
 }
 
-/// Where the number goes: before the ending of the name.
-std::size_t end_of_stem(const std::string& path) {
-  const std::size_t name = path.rfind('/') + 1;  // 0 where there is none
-  const std::size_t dot = path.rfind('.');
-  return dot == std::string::npos || dot <= name ? path.size() : dot;
-}
-
 std::string numbered(const std::string& path, int number) {
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "-%03d", number);
-  const std::size_t stem = end_of_stem(path);
-  return path.substr(0, stem) + text.data() + path.substr(stem);
+  const std::size_t ending = ending_of(path);
+  return path.substr(0, ending) + text.data() + path.substr(ending);
 }
 
 int highest_number_of(const std::string& path) {
-  const std::string before = path.substr(0, end_of_stem(path)) + "-";
+  const std::string before = path.substr(0, ending_of(path)) + "-";
   int highest = 0;
   for (const auto& name : files_like(escaped(before) + digits_pattern(3) + "*")) {
     int number = 0;
@@ -146,18 +139,18 @@ OpenedFile open_next_number(const std::string& path) {
     const auto reason = file.error().reason;
     if (reason != transport::SinkReason::exists && reason != transport::SinkReason::in_use) return file;
   }
-  return tl::unexpected(transport::SinkFault{transport::SinkReason::no_free_number});
+  return transport::refused(transport::SinkReason::no_free_number);
 }
 
 std::vector<std::string> recover_parts(const RecordingName& name, bool has_number) {
   const std::string pattern = name.pattern();
-  const std::size_t stem = end_of_stem(pattern);
+  const std::size_t ending = ending_of(pattern);
   std::vector<std::string> parts;
   if (!has_number) parts = files_like(pattern + ".part");
   for (const int digits : {3, 4}) {
     if (!has_number) break;
     const auto found =
-        files_like(pattern.substr(0, stem) + "-" + digits_pattern(digits) + pattern.substr(stem) + ".part");
+        files_like(pattern.substr(0, ending) + "-" + digits_pattern(digits) + pattern.substr(ending) + ".part");
     parts.insert(parts.end(), found.begin(), found.end());
   }
   std::vector<std::string> recovered;

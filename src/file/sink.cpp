@@ -14,6 +14,8 @@ namespace trk_bridge::file {
 namespace {
 
 using std::chrono::steady_clock;
+using transport::refused;
+using transport::refused_by_system;
 using transport::SinkFault;
 using transport::SinkReason;
 using transport::TransportError;
@@ -42,6 +44,11 @@ class FileSink final : public transport::Sink {
   Written put(const wire::CameraConstants& constants) override { return writer_.write(constants); }
   Written finish() override;
 
+  /// Before the first field, which is of this time; every rate that the settings allow has a code for every time of the
+  /// day.
+  void set_time_code(std::int64_t time) {
+    writer_.set_time_code(settings_.time_code.value_or(*base::time_code_at(time % day, settings_.rate)));
+  }
   Written open(std::int64_t time);
   Written open_when_due(std::int64_t time);
   /// Publishes what dead writers left, and notes it for a person.
@@ -70,7 +77,7 @@ void FileSink::recover() {
 Written FileSink::open(std::int64_t time) {
   recover();
   const std::string path = settings_.path.at(time);
-  auto file = path.empty()       ? OpenedFile(tl::unexpected(SinkFault{SinkReason::system, {}, ENAMETOOLONG}))
+  auto file = path.empty()       ? OpenedFile(refused_by_system(ENAMETOOLONG))
               : settings_.number ? open_next_number(path)
                                  : PartFile::open(path, {settings_.overwrite, Fifo::allowed});
   if (!file) return tl::unexpected(file.error());
@@ -99,7 +106,7 @@ void FileSink::get_ready() {
     const std::string directory = directory_of(settings_.path.at(now));
     opened_ = {};
     if (::access(directory.c_str(), W_OK | X_OK) != 0) {
-      opened_ = tl::unexpected(SinkFault{SinkReason::system, {}, errno});
+      opened_ = refused_by_system(errno);
     }
   } else {
     opened_ = open(now);
@@ -116,27 +123,22 @@ void FileSink::get_ready() {
 }
 
 Written FileSink::put(const wire::CameraParams& params) {
-  if (!writer_.has_constants()) return tl::unexpected(SinkFault{SinkReason::no_constants});
+  if (!writer_.has_constants()) return refused(SinkReason::no_constants);
   const std::int64_t time = this->time() > 0 ? this->time() : base::wall_now();
   if (!writer_.is_open()) {
     if (auto opened = open_when_due(time); !opened) return opened;
   }
-  if (!writer_.has_fields()) {
-    // Every rate that the settings allow has a code for every time of the day.
-    writer_.set_time_code(settings_.time_code.value_or(*base::time_code_at(time % day, settings_.rate)));
-  }
+  if (!writer_.has_fields()) set_time_code(time);
   return writer_.write(params);
 }
 
 Written FileSink::finish() {
   if (!writer_.is_open()) {
     if (!opened_) return opened_;
-    if (!writer_.has_constants()) return tl::unexpected(SinkFault{SinkReason::no_constants});
+    if (!writer_.has_constants()) return refused(SinkReason::no_constants);
     return {};
   }
-  if (!writer_.has_fields()) {
-    writer_.set_time_code(settings_.time_code.value_or(*base::time_code_at(base::wall_now() % day, settings_.rate)));
-  }
+  if (!writer_.has_fields()) set_time_code(base::wall_now());
   return writer_.close();
 }
 

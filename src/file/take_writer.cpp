@@ -10,12 +10,12 @@
 namespace trk_bridge::file {
 namespace {
 
+using transport::refused;
+using transport::refused_by_system;
 using transport::SinkFault;
 using transport::SinkReason;
 using transport::Written;
 
-tl::unexpected<SinkFault> fault(SinkReason reason) { return tl::unexpected(SinkFault{reason}); }
-tl::unexpected<SinkFault> system_fault(int error) { return tl::unexpected(SinkFault{SinkReason::system, {}, error}); }
 tl::unexpected<SinkFault> encode_fault(const wire::Fault& of_record) {
   return tl::unexpected(SinkFault{SinkReason::not_encodable, of_record});
 }
@@ -56,11 +56,11 @@ tl::expected<std::string, SinkFault> TakeWriter::head() {
 }
 
 Written TakeWriter::write(const wire::CameraConstants& constants) {
-  if (ended_) return fault(SinkReason::closed);
-  if (constants_ && constants.id != constants_->id) return fault(SinkReason::other_camera);
+  if (ended_) return refused(SinkReason::closed);
+  if (constants_ && constants.id != constants_->id) return refused(SinkReason::other_camera);
   if (has_fields_) {
     constants_hold_ = *constants_ == constants;
-    if (!constants_hold_) return fault(SinkReason::constants_changed);
+    if (!constants_hold_) return refused(SinkReason::constants_changed);
     return {};
   }
   if (const auto text = wire::to_text(constants, buffer_); !text) return encode_fault(text.error());
@@ -70,11 +70,11 @@ Written TakeWriter::write(const wire::CameraConstants& constants) {
 }
 
 Written TakeWriter::write(const wire::CameraParams& params) {
-  if (!is_open()) return fault(SinkReason::closed);
-  if (!constants_) return fault(SinkReason::no_constants);
+  if (!is_open()) return refused(SinkReason::closed);
+  if (!constants_) return refused(SinkReason::no_constants);
   const std::uint32_t any = constants_->id == 0 ? params.id : constants_->id;
-  if (params.id != camera_.value_or(any)) return fault(SinkReason::other_camera);
-  if (!constants_hold_) return fault(SinkReason::constants_changed);
+  if (params.id != camera_.value_or(any)) return refused(SinkReason::other_camera);
+  if (!constants_hold_) return refused(SinkReason::constants_changed);
   line_.clear();
   if (!has_fields_) {
     const auto before = head();
@@ -106,7 +106,7 @@ Written TakeWriter::append(std::string_view lines) {
         file_.discard();
         has_fields_ = false;
       }
-      return error == EPIPE ? fault(SinkReason::no_reader) : system_fault(error);
+      return error == EPIPE ? refused(SinkReason::no_reader) : refused_by_system(error);
     }
     done += static_cast<std::size_t>(written);
   }
@@ -126,7 +126,7 @@ Written TakeWriter::close() {
 Written TakeWriter::finish() {
   if (!constants_) {
     file_.discard();
-    return fault(SinkReason::no_constants);
+    return refused(SinkReason::no_constants);
   }
   if (!has_fields_) {
     const auto before = head();
@@ -134,7 +134,7 @@ Written TakeWriter::finish() {
     if (auto written = append(*before); !written) return written;
   }
   // A write that failed half-way has left its beginning behind the last whole line.
-  if (const auto published = file_.publish(size_); !published) return system_fault(published.error());
+  if (const auto published = file_.publish(size_); !published) return refused_by_system(published.error());
   return {};
 }
 

@@ -133,14 +133,14 @@ bool DatagramSink::follow_interface_or_wait() noexcept {
 }
 
 Written DatagramSink::send_datagram(std::string_view datagram) noexcept {
-  if (!has_way_) return tl::make_unexpected(SinkFault{SinkReason::no_interface});
+  if (!has_way_) return refused(SinkReason::no_interface);
   ssize_t written;
   do {
     // Not connected, so that an unreachable receiver does not fail the next datagram.
     written = ::sendto(socket_.get(), datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL, target_.get(),
                        target_.length);
   } while (written < 0 && errno == EINTR);
-  if (written < 0) return tl::make_unexpected(SinkFault{SinkReason::system, {}, errno});
+  if (written < 0) return refused_by_system(errno);
   return {};
 }
 

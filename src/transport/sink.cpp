@@ -61,11 +61,11 @@ void Sink::prepare() {
 
 Written Sink::write(const wire::CameraParams& params, std::int64_t time) {
   time_ = time;
-  return counted(closed_ ? tl::make_unexpected(SinkFault{SinkReason::closed}) : put(params), counts_.params);
+  return counted(closed_ ? Written(refused(SinkReason::closed)) : put(params), counts_.params);
 }
 
 Written Sink::write(const wire::CameraConstants& constants) {
-  return counted(closed_ ? tl::make_unexpected(SinkFault{SinkReason::closed}) : put(constants), counts_.constants);
+  return counted(closed_ ? Written(refused(SinkReason::closed)) : put(constants), counts_.constants);
 }
 
 Written Sink::close() {

@@ -50,6 +50,11 @@ struct SinkStatistics {
 
 /// What a write or a close gives.
 using Written = tl::expected<void, SinkFault>;
+/// For functions that give a fault.
+inline tl::unexpected<SinkFault> refused(SinkReason reason) noexcept { return tl::unexpected(SinkFault{reason}); }
+inline tl::unexpected<SinkFault> refused_by_system(int error_number) noexcept {
+  return tl::unexpected(SinkFault{SinkReason::system, {}, error_number});
+}
 
 /// One place that records go to. What is written before or after a failed write is not lost by it. One thread at a
 /// time, but for statistics(), name() and notice().
