@@ -38,7 +38,7 @@ class FifoSink final : public transport::Sink {
 using namespace trk_bridge;
 
 /// Writes so many records to a FIFO that takes less, and leaves it to itself. False where that is not what happened.
-extern "C" __attribute__((visibility("default"))) bool leave_stuck(const char* fifo, int records) {
+extern "C" bool leave_stuck(const char* fifo, int records) {
   transport::SinkEndpoint endpoint;
   endpoint.blocking = transport::Blocking::storage;
   endpoint.open = [fifo] { return std::make_unique<test::FifoSink>(fifo); };
