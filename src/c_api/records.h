@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "trk_bridge/wire/fields.h"
 #include "trk_bridge/wire/format.h"
@@ -93,60 +95,50 @@ inline wire::CameraConstants from_c(trkCameraConstants c) noexcept {
   return k;
 }
 
-/// Parameters as today's programs have them in memory on a machine like this one: shm::default_layout.
-struct NativeParams {
-  unsigned id;
-  unsigned format;
-  trkTransform t;
-  double fov, center_x, center_y, k1, k2, focdist, aperture;
-  unsigned long counter;
-};
+/// Parameters as today's programs have them in memory on a machine like this one: shm::default_layout. Words: id and
+/// format, the transform (16 numbers), seven numbers, the counter. From the transform on, the structures of both header
+/// sets are the same.
+using NativeParams = std::array<std::uint64_t, 25>;
 /// Where they are that: not on 32 bits.
-inline constexpr bool has_native_params = sizeof(NativeParams) == 200 && offsetof(NativeParams, t) == 8;
+inline constexpr bool has_native_params =
+    sizeof(NativeParams) == sizeof(trkCameraParams) && offsetof(trkCameraParams, t) == sizeof(std::uint64_t) &&
+    sizeof(unsigned long) == sizeof(std::uint64_t) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
 
-inline bool is_finite(const NativeParams& n) noexcept {
-  // Of a number that is not finite, the difference with itself is none.
-  double sum = (n.fov - n.fov) + (n.center_x - n.center_x) + (n.center_y - n.center_y) + (n.k1 - n.k1) + (n.k2 - n.k2) +
-               (n.focdist - n.focdist) + (n.aperture - n.aperture);
-  const double* const numbers = &n.t.m[0][0];
-  const int count = wire::has(n.format, wire::euler) ? 6 : 16;
-  for (int i = 0; i < count; ++i) sum += numbers[i] - numbers[i];
-  return sum == 0;
+inline unsigned format_of(const NativeParams& n) noexcept { return static_cast<unsigned>(n[0] >> 32U); }
+
+/// Makes what the format does not select of the transform zero.
+inline void clear_unselected(NativeParams& n) noexcept {
+  const std::uint64_t kept = wire::has(format_of(n), wire::euler) ? 0 : ~std::uint64_t{0};
+  for (std::size_t i = 7; i < 17; ++i) n[i] &= kept;
 }
 
-/// Zero where the format says nothing of the transform.
-inline void copy_transform(unsigned format, const trkTransform& from, trkTransform& to) noexcept {
-  if (wire::has(format, wire::euler)) {
-    to = {};
-    to.e = from.e;
-  } else {
-    to = from;
-  }
+/// After clear_unselected().
+inline bool is_finite(const NativeParams& n) noexcept {
+  // Bit 63, into which an exponent of ones carries when its lowest bit is added. Whole numbers, since a sum of doubles
+  // waits for each of them in turn.
+  constexpr std::uint64_t exponent = 0x7FF0'0000'0000'0000, lowest = 0x0010'0000'0000'0000;
+  const auto carry = [&n](std::size_t i) { return (n[i] & exponent) + lowest; };
+  std::uint64_t carried = carry(23);
+  for (std::size_t i = 1; i < 23; ++i) carried |= carry(i);
+  return carried >> 63U == 0;
 }
 
 inline NativeParams to_native(const trkCameraParams& c) noexcept {
-  NativeParams n{0, c.format, {}, c.fov, c.centerX, c.centerY, c.k1, c.k2, c.focdist, c.aperture, c.counter};
-#ifdef TRK_IDENTIFIED
-  n.id = c.id;
+  NativeParams n;
+  std::memcpy(n.data(), &c, sizeof n);
+#ifndef TRK_IDENTIFIED
+  n[0] = std::uint64_t{c.format} << 32U;
 #endif
-  copy_transform(c.format, c.t, n.t);
+  clear_unselected(n);
   return n;
 }
 
 inline void from_native(const NativeParams& n, trkCameraParams& c) noexcept {
 #ifdef TRK_IDENTIFIED
-  c.id = n.id;
+  c.id = static_cast<unsigned>(n[0]);
 #endif
-  c.format = n.format;
-  copy_transform(n.format, n.t, c.t);
-  c.fov = n.fov;
-  c.centerX = n.center_x;
-  c.centerY = n.center_y;
-  c.k1 = n.k1;
-  c.k2 = n.k2;
-  c.focdist = n.focdist;
-  c.aperture = n.aperture;
-  c.counter = n.counter;
+  c.format = format_of(n);
+  std::memcpy(reinterpret_cast<char*>(&c) + sizeof n[0], &n[1], sizeof n - sizeof n[0]);
 }
 
 /// Whether a program passed something that may be written.

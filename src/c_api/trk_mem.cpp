@@ -68,6 +68,7 @@ ReadResult read_new(Memory& memory, trkCameraConstants& into) noexcept {
 
 // What is in the layout of this program's own structures is copied as it is.
 ReadResult read_new(Memory& memory, trkCameraParams& into) noexcept {
+  if (!memory.has_new_params()) return ReadResult::nothing;
   shm::RecordImage image;
   std::string_view bytes;
   transport::Fault fault;
@@ -75,7 +76,8 @@ ReadResult read_new(Memory& memory, trkCameraParams& into) noexcept {
   if (result != ReadResult::fresh) return result;
   if (has_native_params && memory.read_in() == shm::default_layout) {
     NativeParams native;
-    std::memcpy(&native, bytes.data(), sizeof native);
+    std::memcpy(native.data(), bytes.data(), sizeof native);
+    clear_unselected(native);
     if (!is_finite(native)) return ReadResult::malformed;
     from_native(native, into);
     return result;
@@ -109,7 +111,7 @@ bool put(Memory& memory, const trkCameraParams& params) noexcept {
   }
   const NativeParams native = to_native(params);
   if (!is_finite(native)) return false;
-  memory.write_params({reinterpret_cast<const char*>(&native), sizeof native});
+  memory.write_params({reinterpret_cast<const char*>(native.data()), sizeof native});
   return true;
 }
 

@@ -69,22 +69,21 @@ bool Link::look_due(Clock::time_point now, std::chrono::milliseconds period) noe
   return true;
 }
 
-tl::expected<void, SlotFault> Link::keep(Clock::time_point now) noexcept {
+tl::expected<void, SlotFault> Link::keep_now(Clock::time_point now) noexcept {
   if (!segment_) {
     if (absent_ && !look_due(now, attach_period)) return tl::unexpected(*absent_);
     return attach(nullptr, now);
   }
-  if (!look_due(now, check_period)) return {};
+  looked_ = now;
   if (const auto checked = check(true, nullptr, now); !checked) return checked;
   if (has_written_ || !is_alone_too_long(now)) return {};
   absent_ = let_go();
   return tl::unexpected(*absent_);
 }
 
-tl::expected<void, SlotFault> Link::keep_for_writing(Clock::time_point now) noexcept {
+tl::expected<void, SlotFault> Link::keep_for_writing_now(Clock::time_point now) noexcept {
   if (!segment_) return attach(options_.create, now);
   const bool is_due = look_due(now, check_period);
-  if (!is_due && !options_.looks_at_every_write && !options_.recreate) return {};
   return check(is_due, options_.create, now);
 }
 
@@ -243,7 +242,7 @@ tl::expected<const SegmentLayout*, transport::Fault> Link::known_layout_of_param
 }
 
 ReadResult Link::read_params(RecordImage& image, std::string_view& bytes, transport::Fault& fault) noexcept {
-  if (!segment_ || segment_->params_counter() == params_read_) return ReadResult::nothing;
+  if (!has_new_params()) return ReadResult::nothing;
   if (!segment_->copy_params(image)) {
     fault = record_fault(RecordProblem::unsteady, *segment_);
     return ReadResult::malformed;

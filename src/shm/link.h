@@ -57,10 +57,16 @@ class Link {
   /// For reading: attaches, or reattaches, when it is time to look; creates nothing. Lets go of a segment that nobody
   /// else has attached to for `alone_limit`, unless it wrote; that removes it where the system permits, and where not,
   /// it is attached to again when somebody else has. A fault says why there is no segment.
-  [[nodiscard]] tl::expected<void, SlotFault> keep(Clock::time_point now) noexcept;
+  [[nodiscard]] tl::expected<void, SlotFault> keep(Clock::time_point now) noexcept {
+    if (is_kept(now)) return {};
+    return keep_now(now);
+  }
   /// For writing: as a rule looks at every call, for a write into a removed segment would be lost, and makes one where
   /// there is none.
-  [[nodiscard]] tl::expected<void, SlotFault> keep_for_writing(Clock::time_point now) noexcept;
+  [[nodiscard]] tl::expected<void, SlotFault> keep_for_writing(Clock::time_point now) noexcept {
+    if (is_kept(now) && !options_.looks_at_every_write && !options_.recreate) return {};
+    return keep_for_writing_now(now);
+  }
 
   /// The same, before the first write: the one function that waits, up to 0.2 s for others that make or remove the
   /// segment.
@@ -70,6 +76,8 @@ class Link {
   const Segment* segment() const noexcept { return segment_ ? &*segment_ : nullptr; }
   /// Segments attached to so far.
   std::uint64_t attached() const noexcept { return attached_; }
+  /// Whether reading parameters would not give `nothing`.
+  bool has_new_params() const noexcept { return segment_ && segment_->params_counter() != params_read_; }
   /// Parameters written and replaced by newer ones before they were read.
   std::uint64_t overwritten() const noexcept { return overwritten_; }
 
@@ -108,6 +116,10 @@ class Link {
   tl::expected<void, SlotFault> attach(const SegmentLayout* create, Clock::time_point now) noexcept;
   tl::expected<void, SlotFault> check(bool look_up, const SegmentLayout* create, Clock::time_point now) noexcept;
   void begin_reading(Clock::time_point now) noexcept;
+  /// Whether the last look at the segment is recent enough.
+  bool is_kept(Clock::time_point now) const noexcept { return segment_ && looked_ && now - *looked_ < check_period; }
+  tl::expected<void, SlotFault> keep_now(Clock::time_point now) noexcept;
+  tl::expected<void, SlotFault> keep_for_writing_now(Clock::time_point now) noexcept;
   bool look_due(Clock::time_point now, std::chrono::milliseconds period) noexcept;
   Look look() const noexcept;
   bool is_alone_too_long(Clock::time_point now) noexcept;

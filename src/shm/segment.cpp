@@ -34,6 +34,7 @@ std::uint64_t magic_in(char* base, const SegmentLayout& layout) noexcept {
 
 template <typename Word>
 void copy_out_by(char* from, std::size_t size, char* to) noexcept {
+#pragma GCC unroll 8
   for (std::size_t i = 0; i < size; i += sizeof(Word)) {
     const Word word = __atomic_load_n(at<Word>(from, i), __ATOMIC_RELAXED);
     std::memcpy(to + i, &word, sizeof word);
@@ -42,6 +43,7 @@ void copy_out_by(char* from, std::size_t size, char* to) noexcept {
 
 template <typename Word>
 void copy_in_by(const char* from, std::size_t size, char* to) noexcept {
+#pragma GCC unroll 8
   for (std::size_t i = 0; i < size; i += sizeof(Word)) {
     Word word = 0;
     std::memcpy(&word, from + i, sizeof word);
@@ -318,14 +320,6 @@ SegmentFate Segment::fate(bool look_up) const noexcept {
   if (!look_up) return SegmentFate::current;
   const auto found = find_segment(slot_);
   return found && found->id != id_ ? SegmentFate::replaced : SegmentFate::current;
-}
-
-std::uint16_t Segment::params_counter() const noexcept {
-  return __atomic_load_n(at<std::uint16_t>(base_, layout_->params_counter), __ATOMIC_ACQUIRE);
-}
-
-std::uint16_t Segment::constants_counter() const noexcept {
-  return __atomic_load_n(at<std::uint16_t>(base_, layout_->constants_counter), __ATOMIC_ACQUIRE);
 }
 
 bool Segment::copy(std::size_t counter_at, std::array<std::size_t, 2> SegmentLayout::*elements,

@@ -136,8 +136,8 @@ class Segment {
   /// `look_up`: ask for the slot's file and key, too; without it only `removed` is noticed, by one system call.
   SegmentFate fate(bool look_up) const noexcept;
 
-  std::uint16_t params_counter() const noexcept;
-  std::uint16_t constants_counter() const noexcept;
+  std::uint16_t params_counter() const noexcept { return counter(layout_->params_counter); }
+  std::uint16_t constants_counter() const noexcept { return counter(layout_->constants_counter); }
   /// Copies the newest record. False when a writer changed it every time: then `into` holds nothing of use.
   [[nodiscard]] bool copy_params(RecordImage& into) const noexcept;
   /// Copies the newest constants. False as above.
@@ -158,6 +158,10 @@ class Segment {
   Segment(int slot, int id, char* base, const SegmentLayout& layout, bool writable) noexcept;
   static tl::expected<Segment, SlotFault> create(int slot, const SegmentLayout&, int mode) noexcept;
   static tl::expected<Segment, SlotFault> adopt(int slot) noexcept;
+  // Shared with other processes: atomic.
+  std::uint16_t counter(std::size_t at) const noexcept {
+    return __atomic_load_n(reinterpret_cast<const std::uint16_t*>(base_ + at), __ATOMIC_ACQUIRE);
+  }
   bool copy(std::size_t counter_at, std::array<std::size_t, 2> SegmentLayout::*elements,
             std::size_t SegmentLayout::*size, RecordImage& into) const noexcept;
   void put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept;

@@ -43,6 +43,7 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
   for (std::uint64_t rounds = 0;; ++rounds) {
     if (const Event end = final_event(); end != Event::sample) return end;
     while (has_datagram_) {
+      into.more = socket_->has_more();
       into.sample.sender = sender_;
       into.sample.arrival = arrival_;
       switch (decoder_->next(into.sample, into.fault)) {
@@ -89,6 +90,7 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
 Event DatagramSource::too_long(const ReceiveSocket::Datagram& datagram, Reception& into) noexcept {
   into.sample.sender = datagram.sender;
   into.sample.arrival = datagram.arrival;
+  into.more = socket_->has_more();
   into.fault = wire::Fault{wire::Reason::too_long};
   return malformed();
 }

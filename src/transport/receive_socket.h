@@ -70,6 +70,8 @@ class ReceiveSocket {
   /// The next datagram that is there, without waiting; its bytes stay until the next call. None when nothing is there
   /// or, with errno in `error`, the system refused.
   std::optional<Datagram> next(int& error) noexcept;
+  /// False: when next() last asked the system, no more were there than it has given since.
+  bool has_more() const noexcept { return next_ < count_ || count_ == batch; }
 
  private:
   static constexpr std::size_t batch = 32;  // datagrams that one system call takes

@@ -30,6 +30,8 @@ enum class Event : std::uint8_t {
 struct Reception {
   Sample sample;
   Fault fault;
+  /// False: when the kernel was last asked, no other datagram was there. Only another receive() asks it again.
+  bool more = true;
 };
 
 /// How far a source has come. `receiving` is only ever reached by a valid record.

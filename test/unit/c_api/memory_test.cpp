@@ -1,12 +1,17 @@
 // Transfer by shared memory, and every misuse of it.
+#include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/shm.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -53,6 +58,48 @@ TEST_F(Memory, passes_parameters_and_constants) {
   EXPECT_EQ(trkMemReadConstants(reader, &c), trkUnavailable);
   ASSERT_EQ(trkMemWriteConstants(writer, &constants_in_c), trkOK);
   EXPECT_EQ(trkMemReadConstants(reader, &c), trkOK) << "written again is new again";
+}
+
+TEST_F(Memory, numbers_that_are_not_finite_are_neither_written_nor_read) {
+  ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
+  ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
+  // What another program does: the record and its counter, byte for byte, into a segment of 544 bytes.
+  auto* const segment = static_cast<char*>(::shmat(slot.segment(), nullptr, 0));
+  ASSERT_NE(segment, reinterpret_cast<char*>(-1));
+  constexpr std::size_t counter_at = 12, params_at = 16, params_size = 200, transform_at = 8;
+  const auto write_as_it_is = [&](const trkCameraParams& params) {
+    std::uint16_t count = 0;
+    std::memcpy(&count, segment + counter_at, sizeof count);
+    ++count;
+    char* const record = segment + params_at + (count & 1U) * params_size;
+    const unsigned head[] = {0, params.format};
+    std::memcpy(record, head, sizeof head);
+    std::memcpy(record + transform_at, &params.t, params_size - transform_at);
+    std::memcpy(segment + counter_at, &count, sizeof count);
+  };
+  struct Case {
+    unsigned format;
+    std::vector<std::size_t> selected;  // the numbers from the transform on that its format has
+  };
+  std::vector<std::size_t> euler = {0, 1, 2, 3, 4, 5, 16, 17, 18, 19, 20, 21, 22}, matrix(23);
+  std::iota(matrix.begin(), matrix.end(), 0U);
+  for (const auto& [format, selected] : {Case{trkEuler, euler}, Case{trkMatrix, matrix}}) {
+    for (std::size_t i = 0; i < 23; ++i) {
+      for (const double number : {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+        trkCameraParams bad = params_in_c(5);
+        bad.format = format;
+        if (format == trkMatrix) bad.t = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+        std::memcpy(reinterpret_cast<char*>(&bad.t) + i * sizeof number, &number, sizeof number);
+        const bool is_selected = std::count(selected.begin(), selected.end(), i) > 0;
+        EXPECT_EQ(trkMemWriteParams(writer, &bad), is_selected ? trkFailed : trkOK) << i;
+        EXPECT_EQ(trkMemReadParams(reader, &p), is_selected ? trkUnavailable : trkOK) << i;
+        write_as_it_is(bad);
+        EXPECT_EQ(trkMemReadParams(reader, &p), is_selected ? trkInvalidVersion : trkOK) << i;
+        EXPECT_TRUE(is_selected || p.t.m[i / 4][i % 4] == 0) << "what the format does not select";
+      }
+    }
+  }
+  ::shmdt(segment);
 }
 
 TEST_F(Memory, the_last_close_removes_it) {
