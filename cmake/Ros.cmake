@@ -27,7 +27,7 @@ find_package(OpenCV REQUIRED COMPONENTS core imgproc calib3d)
 find_package(rviz REQUIRED)
 find_package(Qt5 ${rviz_QT_VERSION} REQUIRED COMPONENTS Core Gui Widgets)
 
-add_message_files(DIRECTORY msg FILES CameraConstants.msg CameraParams.msg)
+add_message_files(DIRECTORY msg FILES CameraConstants.msg CameraParams.msg TimeCode.msg)
 generate_messages(DEPENDENCIES std_msgs)
 
 catkin_package(

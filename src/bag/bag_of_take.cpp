@@ -78,9 +78,11 @@ class TakeCamera {
   }
 
   /// Afterwards messages() has what is in the update.
-  bridge::CameraUpdate process(const wire::Record& record, std::int64_t stamp) {
+  bridge::CameraUpdate process(const wire::Record& record, std::int64_t stamp,
+                               std::optional<base::CountedTimeCode> time_code = {}) {
     sample_.record = record;
     sample_.arrival = stamp;
+    sample_.time_code = time_code;
     auto update = pipeline_.process(sample_, stamp);
     messages_.make(update);
     return update;
@@ -100,7 +102,7 @@ class TakeCamera {
 class Schedule {
  public:
   Schedule(const base::TimeCode& code, const TakeToBagOptions& options)
-      : rate_(options.field_rate), code_(options.start ? base::TimeCode{} : code) {
+      : rate_(options.field_rate), taken_(code), code_(options.start ? base::TimeCode{} : code) {
     const auto of_code = base::nanoseconds_of(code, rate_, 0);
     if (!of_code && !options.start) throw BagError(of_code.error() + "; set --field-rate HZ, or --start TIME");
     base_ = options.start.value_or(options.midnight);
@@ -108,12 +110,19 @@ class Schedule {
   }
 
   std::int64_t at(std::uint64_t field) const { return base_ + base::nanoseconds_of(code_, rate_, field).value(); }
+  /// None when the take's code does not go with the rate.
+  std::optional<base::CountedTimeCode> time_code(std::uint64_t field) const {
+    const auto code = base::time_code_after(taken_, rate_, field);
+    if (!code) return std::nullopt;
+    return base::CountedTimeCode{*code, rate_};
+  }
   /// When the time code was 00:00:00:00:1; none when the code does not go with the rate.
   std::optional<std::int64_t> zero() const noexcept { return zero_; }
 
  private:
   double rate_;
-  base::TimeCode code_;
+  base::TimeCode taken_;
+  base::TimeCode code_;  // that stamps are counted with
   std::int64_t base_ = 0;
   std::optional<std::int64_t> zero_;
 };
@@ -216,11 +225,12 @@ void record(const file::Take& take, const Schedule& schedule, TakeCamera& camera
   }
   for (std::size_t i = 0; i < take.params.size(); ++i) {
     run.at(static_cast<double>(i) / static_cast<double>(take.params.size()));
-    const auto update = camera.process(take.params[i], schedule.at(i));
+    const auto update = camera.process(take.params[i], schedule.at(i), schedule.time_code(i));
     const auto stamp = ros1::to_time(update.stamp);
     if (update.pose) recording.write("/tf", messages.transform());
     if (update.params) recording.write(camera.topic("params"), stamp, messages.params());
     if (update.calibration) recording.write(camera.topic("camera_info"), stamp, messages.camera_info());
+    if (update.time_code) recording.write(camera.topic("time_code"), stamp, messages.time_code());
   }
 }
 

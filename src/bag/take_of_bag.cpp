@@ -44,8 +44,11 @@ void take_of_bag(const std::string& bag_path, const std::string& take_path, cons
 
     const std::string topic = topic_of(camera.name, from_params ? "params" : "camera_info");
     const auto timing = recorded_timing(bag.connections(), topic);
-    const double rate = field_rate_of(options.field_rate, timing.field_rate, measured_rate(fields), err);
-    const auto code = time_code_of(fields.stamps.front(), rate, timing.time_code_zero);
+    const auto recorded = recorded_time_code(bag, topic_of(camera.name, "time_code"), fields.stamps.front());
+    const auto counted = recorded && recorded->rate > 0 ? std::optional<double>(recorded->rate) : timing.field_rate;
+    const double rate = field_rate_of(options.field_rate, counted, measured_rate(fields), err);
+    const auto code = recorded ? tl::expected<base::TimeCode, std::string>(recorded->code)
+                               : time_code_of(fields.stamps.front(), rate, timing.time_code_zero);
     if (!code) throw BagError(code.error());
     report_gaps(fields, rate, err);
     write(fields, *code, take_path, options.overwrite, run);

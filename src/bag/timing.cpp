@@ -5,10 +5,14 @@
 #include <cmath>
 #include <ostream>
 
+#include <trk_bridge/TimeCode.h>
+
 #include "base/time_text.h"
 #include "bridge/diagnostic_text.h"
 #include "cli/number_text.h"
+#include "reader.h"
 #include "trk_bridge/base/sequence.h"
+#include "trk_bridge/ros/messages.h"
 
 namespace trk_bridge::bag {
 namespace {
@@ -100,6 +104,21 @@ double field_rate_of(std::optional<double> option, std::optional<double> of_bag,
   if (!option) throw BagError(found + ": set --field-rate HZ");
   err << "trk: " << found << '\n';
   return rate;
+}
+
+std::optional<base::CountedTimeCode> recorded_time_code(Reader& bag, const std::string& topic, std::int64_t stamp) {
+  std::optional<base::CountedTimeCode> found;
+  const auto wanted = [&topic](const Connection& connection) {
+    return connection.topic == topic && carries<trk_bridge::TimeCode>(connection);
+  };
+  bag.read(wanted, [&](const RawMessage& raw) {
+    const auto message = message_of<trk_bridge::TimeCode>(raw);
+    if (stamp_of(message) != stamp) return;
+    found = ros1::from_msg(message);
+    const auto sound = base::parse_time_code(base::to_string(found->code));
+    if (!sound) throw BagError("a message of " + topic + ": " + sound.error());
+  });
+  return found;
 }
 
 tl::expected<base::TimeCode, std::string> time_code_of(std::int64_t stamp, double field_rate,

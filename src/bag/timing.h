@@ -36,6 +36,10 @@ std::optional<double> measured_rate(const Fields&);
 double field_rate_of(std::optional<double> option, std::optional<double> of_bag, std::optional<double> measured,
                      std::ostream& err);
 
+/// The message of a topic `time_code` that has this stamp, if the bag has one. Throws BagError where it is no time
+/// code.
+std::optional<base::CountedTimeCode> recorded_time_code(Reader&, const std::string& topic, std::int64_t stamp);
+
 /// The code of a stamp, counted from the bag's zero where it has one that is not later, else from midnight UTC.
 tl::expected<base::TimeCode, std::string> time_code_of(std::int64_t stamp, double field_rate,
                                                        std::optional<std::int64_t> zero);

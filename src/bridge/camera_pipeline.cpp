@@ -99,6 +99,7 @@ CameraUpdate CameraPipeline::process(const wire::CameraParams& params, const tra
 
   CameraUpdate update;
   update.stamp = *stamped;
+  update.time_code = sample.time_code;
   if (options_.publish_tf) update.pose = *converted.pose;
   if (sample.has_lens) {
     add_lens(converted, update);

@@ -57,6 +57,7 @@ struct CameraUpdate {
   std::optional<wire::CameraParams> params;        ///< in the published format
   std::optional<camera::Calibration> calibration;  ///< of CameraInfo
   std::optional<Eigen::Isometry3d> pose;           ///< studio_T_camera, m
+  std::optional<base::CountedTimeCode> time_code;  ///< of parameters, where the protocol has one
 };
 
 /// Not synchronised: one thread at a time. Never allocates.

@@ -39,7 +39,7 @@ constexpr std::array<Option<SourceSettings>, 6> source_options{{
 }};
 
 constexpr std::array<Option<SinkSettings>, 4> sink_options{{
-    {"timecode", "HH:MM:SS:FF:D, D being 1 or 2",
+    {"timecode", "HH:MM:SS:FF:D, D being 1 or 2 (drop-frame: HH:MM:SS;FF:D)",
      [](const std::string& v, SinkSettings& s) {
        const auto code = base::parse_time_code(v);
        if (code) s.time_code = *code;

@@ -79,6 +79,7 @@ class FileSource final : public transport::CountedSource {
     if (!fifo_ && position_ == take_.params.size() && !constants_due_) {
       if (!loop_) return ended();
       position_ = 0;
+      round_begin_ = played_;
       gaps_passed_ = 0;
       constants_due_ = true;
     }
@@ -195,7 +196,15 @@ class FileSource final : public transport::CountedSource {
     } else {
       sample.record = take_.params[position_++];
     }
+    sample.time_code = time_code();
     ++played_;
+  }
+
+  /// Of the field that comes next; none where the take's code does not fit the rate.
+  std::optional<base::CountedTimeCode> time_code() const {
+    const auto code = base::time_code_after(take_.time_code, rate_, played_ - round_begin_);
+    if (!code) return std::nullopt;
+    return base::CountedTimeCode{*code, rate_};
   }
 
   void complete(SourceStatistics& statistics) const override {
@@ -227,6 +236,7 @@ class FileSource final : public transport::CountedSource {
   std::size_t position_ = 0;
   std::size_t reported_ = 0, gaps_passed_ = 0;  // of the lines left out
   std::uint64_t played_ = 0;                    // fields, over all rounds
+  std::uint64_t round_begin_ = 0;               // played_ when this round began
 };
 
 }  // namespace

@@ -40,7 +40,7 @@ void Model::add(const transport::Sample& sample, Time now) {
 }
 
 void Model::add_params(Track& track, const transport::Sample& sample, const wire::CameraParams& params, Time now) {
-  track.latest = Latest{params, sample.origin, now};
+  track.latest = Latest{params, sample.origin, sample.time_code, now};
   track.arrivals.add(sample.arrival);
   if (const auto pose = camera::decode_pose(params)) {
     const auto angles = camera::pan_tilt_roll(pose->linear());
@@ -89,7 +89,8 @@ CameraState Model::state_of(const cli::Tally::Key& key, const Track& track, Time
                              lens,
                              angle,
                              age,
-                             age > std::max(silent_after, silent_after_intervals * interval)};
+                             age > std::max(silent_after, silent_after_intervals * interval),
+                             track.latest->time_code};
   return state;
 }
 

@@ -33,6 +33,7 @@ struct ParamsState {
   double age = 0;                           ///< s since they were handed out
   /// Nothing new for more than a second and more than three intervals.
   bool is_silent = false;
+  std::optional<base::CountedTimeCode> time_code;
 };
 
 /// One id of one sender.
@@ -71,6 +72,7 @@ class Model {
   struct Latest {
     wire::CameraParams params;
     const char* origin;
+    std::optional<base::CountedTimeCode> time_code;
     Time came;
   };
   struct Track {

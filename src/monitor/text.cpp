@@ -66,6 +66,7 @@ Group head(const CameraState& camera) {
   group.items.push_back({transport::to_string(camera.key.sender)});
   if (!camera.latest) return group;
   group.items.push_back({"counter " + std::to_string(camera.latest->params.counter)});
+  if (camera.latest->time_code) group.items.push_back({base::to_string(camera.latest->time_code->code)});
   if (!camera.latest->is_silent) group.items.push_back({"age " + seconds(camera.latest->age)});
   return group;
 }

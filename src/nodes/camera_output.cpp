@@ -21,6 +21,7 @@ CameraOutput::CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&
   const auto queue = static_cast<std::uint32_t>(queue_size);
   params_ = node.advertise<trk_bridge::CameraParams>("params", queue);
   constants_ = node.advertise<trk_bridge::CameraConstants>("constants", queue, /*latch=*/true);
+  time_code_ = node.advertise<trk_bridge::TimeCode>("time_code", queue);
   if (parameters.options.publish_camera_info)
     camera_info_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", queue);
   publish(pipeline_.initial());
@@ -36,6 +37,7 @@ void CameraOutput::publish(const bridge::CameraUpdate& update) {
   if (update.params) params_.publish(messages_.params());
   if (update.calibration) camera_info_.publish(messages_.camera_info());
   if (update.constants) constants_.publish(messages_.constants());
+  if (update.time_code) time_code_.publish(messages_.time_code());
   statistics_.store(pipeline_.statistics());
   publish_markers(update);
 }

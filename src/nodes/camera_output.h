@@ -21,9 +21,9 @@ namespace trk_bridge::nodes {
 /// process() belongs to one reader's thread, describe() to the diagnostics' one.
 class CameraOutput {
  public:
-  /// Advertises `params`, `constants` and `camera_info` in the namespace of `node`, and publishes the parameter's
-  /// constants where there are any. `markers` is a topic that cameras share; it is used only where publish_markers is
-  /// set.
+  /// Advertises `params`, `constants`, `camera_info` and `time_code` in the namespace of `node`, and publishes the
+  /// parameter's constants where there are any. `markers` is a topic that cameras share; it is used only where
+  /// publish_markers is set.
   CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&, double field_rate, int queue_size,
                const ::ros::Publisher& markers);
 
@@ -46,7 +46,7 @@ class CameraOutput {
   ros1::CameraMessages messages_;
   std::optional<ros1::CameraMarkers> markers_;
   double field_rate_;
-  ::ros::Publisher params_, constants_, camera_info_, marker_topic_;
+  ::ros::Publisher params_, constants_, camera_info_, time_code_, marker_topic_;
   tf2_ros::TransformBroadcaster transforms_;
   base::Snapshot<bridge::CameraStatistics> statistics_;
   base::Snapshot<bridge::MarkerStatistics> marker_statistics_;

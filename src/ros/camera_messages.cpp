@@ -15,6 +15,7 @@ CameraMessages::CameraMessages(const CameraFrames& frames) {
   camera_info_.distortion_model.reserve(std::strlen(camera::name(camera::DistortionModel::rational_polynomial)));
   transform_.header.frame_id = frames.studio;
   transform_.child_frame_id = frames.camera;
+  time_code_.header.frame_id = frames.studio;
 }
 
 void CameraMessages::make(const bridge::CameraUpdate& update) {
@@ -34,6 +35,10 @@ void CameraMessages::make(const bridge::CameraUpdate& update) {
   if (update.pose) {
     transform_.transform = to_transform(*update.pose);
     transform_.header.stamp = stamp;
+  }
+  if (update.time_code) {
+    to_msg(*update.time_code, time_code_);
+    time_code_.header.stamp = stamp;
   }
 }
 

@@ -35,6 +35,17 @@ void to_msg(const wire::CameraConstants& constants, trk_bridge::CameraConstants&
   wire::copy_fields<wire::CameraConstants>(constants, message);
 }
 
+void to_msg(const base::CountedTimeCode& time_code, trk_bridge::TimeCode& message) {
+  const auto part = [](int value) { return static_cast<std::uint8_t>(value); };
+  message.hours = part(time_code.code.hours);
+  message.minutes = part(time_code.code.minutes);
+  message.seconds = part(time_code.code.seconds);
+  message.frames = part(time_code.code.frames);
+  message.field = part(time_code.code.field);
+  message.drop_frame = part(time_code.code.drop_frame ? 1 : 0);
+  message.rate = time_code.rate;
+}
+
 void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& message) {
   const auto& k = calibration.k;
   const auto& distortion = calibration.distortion;
@@ -71,6 +82,11 @@ wire::CameraConstants from_msg(const trk_bridge::CameraConstants& message) {
   wire::CameraConstants constants;
   wire::copy_fields<wire::CameraConstants>(message, constants);
   return constants;
+}
+
+base::CountedTimeCode from_msg(const trk_bridge::TimeCode& message) {
+  return {{message.hours, message.minutes, message.seconds, message.frames, message.field, message.drop_frame != 0},
+          message.rate};
 }
 
 }  // namespace trk_bridge::ros1

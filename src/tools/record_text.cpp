@@ -63,6 +63,7 @@ class JsonRecord {
     writer_.Key("arrival");
     raw(base::seconds_text(sample.arrival));
     text("sender", transport::to_string(sample.sender));
+    if (sample.time_code) text("time_code", base::to_string(sample.time_code->code));
   }
 
   void text(const char* key, const std::string& content) {
@@ -142,6 +143,7 @@ class PlainRecord {
  public:
   explicit PlainRecord(const transport::Sample& sample)
       : line_(base::iso_time(sample.arrival) + " " + transport::to_string(sample.sender)) {
+    if (sample.time_code) line_ += " " + base::to_string(sample.time_code->code);
     std::visit([this](const auto& record) { body(record); }, sample.record);
   }
   std::string finish() { return std::move(line_); }

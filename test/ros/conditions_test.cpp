@@ -2,12 +2,15 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
+#include <trk_bridge/TimeCode.h>
 
 #include <algorithm>
 
 #include "fixture.h"
 #include "repeating.h"
 #include "reserved_port.h"
+#include "temporary_directory.h"
+#include "trk_bridge/ros/messages.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::test {
@@ -219,6 +222,29 @@ TEST_F(Conditions, DelayIsTakenOffEveryStamp) {
   EXPECT_GE(stamp, before - ::ros::Duration(5));
   EXPECT_LE(stamp, ::ros::Time::now() - ::ros::Duration(5));
   EXPECT_EQ(params->messages[0].header.stamp, stamp);
+}
+
+class TakePlayed : public TrkToRosTest {};
+
+TEST_F(TakePlayed, TheTimeCodeOfEveryFieldIsPublished) {
+  const TemporaryDirectory folder;
+  const std::string take = folder / "take.trk";
+  write_text(take,
+             "DMC01\n10:59:59;28:1\n1920 1080 14 2 12 4 27 18 27 18\n1 1 2 3 4 5 6 50 0 0 0 0 5 8 1\n"
+             "1 1 2 3 4 5 6 50 0 0 0 0 5 8 2\n1 1 2 3 4 5 6 50 0 0 0 0 5 8 3\n");
+  set("source", "file:" + take + "?rate=29.97&loop=1");
+  Recorder<trk_bridge::TimeCode> codes(name_space + "/time_code");
+  Recorder<trk_bridge::CameraParams> params(name_space + "/params");
+  ASSERT_TRUE(starts());
+  ASSERT_TRUE(eventually([&] { return codes.messages.size() >= 6 && params.messages.size() >= 6; }));
+  const char* const expected[] = {"10:59:59;28:1", "10:59:59;29:1", "11:00:00;00:1"};
+  for (const auto& message : codes.messages) {
+    const auto of_params = std::find_if(params.messages.begin(), params.messages.end(),
+                                        [&](const auto& p) { return p.header.stamp == message.header.stamp; });
+    if (of_params == params.messages.end()) continue;
+    EXPECT_EQ(base::to_string(ros1::from_msg(message).code), expected[of_params->counter - 1]);
+    EXPECT_EQ(message.rate, 29.97);
+  }
 }
 
 TEST_F(Conditions, ABurstArrivesWhole) {

@@ -7,7 +7,9 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
+#include <trk_bridge/TimeCode.h>
 
+#include "trk_bridge/base/time_code.h"
 #include "trk_bridge/camera/calibration.h"
 #include "trk_bridge/wire/record.h"
 
@@ -16,6 +18,8 @@ namespace trk_bridge::ros1 {
 /// Field by field, in the units of the record's format. What the format does not select (matrix or Euler) is zero.
 void to_msg(const wire::CameraParams& params, trk_bridge::CameraParams& message);
 void to_msg(const wire::CameraConstants& constants, trk_bridge::CameraConstants& message);
+
+void to_msg(const base::CountedTimeCode& time_code, trk_bridge::TimeCode& message);
 
 /// Size, model, D, K, R = identity, P = [K|0]; no binning, no region of interest. Allocates only when `message` is new
 /// or its model changes to a longer one.
@@ -29,5 +33,6 @@ std::int64_t from_time(const ::ros::Time& time) noexcept;
 /// The way back, field by field. Headers are not looked at.
 wire::CameraParams from_msg(const trk_bridge::CameraParams& message);
 wire::CameraConstants from_msg(const trk_bridge::CameraConstants& message);
+base::CountedTimeCode from_msg(const trk_bridge::TimeCode& message);
 
 }  // namespace trk_bridge::ros1

@@ -86,7 +86,7 @@ struct Sample {
   bool has_lens = true;
   /// When the sender sampled the camera by its own clock, ns since 1970 UTC; none where the protocol has no time.
   std::optional<std::int64_t> sample_time;
-  std::optional<base::TimeCode> time_code;  ///< none where the protocol has none
+  std::optional<base::CountedTimeCode> time_code;  ///< none where the protocol has none
 };
 
 /// "ASCII", "binary identified_lp64", "binary document_i386_be", with ", layout guessed" behind it where two layouts

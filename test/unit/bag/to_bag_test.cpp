@@ -7,8 +7,10 @@
 #include <tf2_msgs/TFMessage.h>
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
+#include <trk_bridge/TimeCode.h>
 
 #include "fixture.h"
+#include "trk_bridge/ros/messages.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::bag {
@@ -92,6 +94,7 @@ TEST_F(ToBag, HoldsWhatTheNodePublishes) {
   EXPECT_EQ(counts, (std::map<std::string, std::size_t>{{"/crane1/camera_info", fields},
                                                         {"/crane1/constants", 1},
                                                         {"/crane1/params", fields},
+                                                        {"/crane1/time_code", fields},
                                                         {"/tf", fields},
                                                         {"/tf_static", 1}}));
   // 03:13:51:00:1 on 1970-01-02, 50 fields a second.
@@ -118,6 +121,27 @@ TEST_F(ToBag, HoldsWhatTheNodePublishes) {
     }
   }
   EXPECT_EQ(infos, fields);
+}
+
+TEST_F(ToBag, TimeCodesAreMessagesAndComeBack) {
+  TakeToBagOptions options;
+  options.field_rate = 59.94;
+  options.start = 1'700'000'000'000'000'000;  // no time of day says the code
+  const auto take = take_of(some_fields(200), "made.trk", {0, 59, 59, 29, 1, true});
+  const auto path = to_bag(take, options);
+  rosbag::Bag bag(path);
+  std::vector<std::string> codes;
+  for (const auto& message : rosbag::View(bag, rosbag::TopicQuery("/camera/time_code"))) {
+    const auto code = message.instantiate<trk_bridge::TimeCode>();
+    ASSERT_TRUE(code);
+    EXPECT_EQ(code->rate, 59.94);
+    EXPECT_EQ(code->header.frame_id, "studio");
+    codes.push_back(base::to_string(ros1::from_msg(*code).code));
+  }
+  ASSERT_EQ(codes.size(), 200u);
+  EXPECT_EQ(codes[0], "00:59:59;29:1");
+  EXPECT_EQ(codes[2], "01:00:00;00:1");
+  EXPECT_EQ(to_take(path).time_code, file::read_take(take).time_code);
 }
 
 TEST_F(ToBag, TheDayAndTheStartCanBeSet) {

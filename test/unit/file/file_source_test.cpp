@@ -81,6 +81,57 @@ TEST_F(PlayFile, ConstantsFirstThenEveryFieldThenTheEnd) {
   EXPECT_EQ(source->statistics().records, 4u);
 }
 
+/// "-" without one.
+std::string time_code(const Reception& r) {
+  return r.sample.time_code ? base::to_string(r.sample.time_code->code) : "-";
+}
+
+TEST_F(PlayFile, EveryFieldHasItsTimeCodeInEveryRound) {
+  auto settings = take_of(3);
+  settings.speed = 0;
+  settings.loop = true;
+  const auto source = open_source(settings, 50.0);
+  Reception r;
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+    EXPECT_EQ(time_code(r), "-") << "constants";
+    for (const char* code : {"10:20:30:12:1", "10:20:30:12:2", "10:20:30:13:1"}) {
+      ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+      EXPECT_EQ(time_code(r), code);
+      EXPECT_EQ(r.sample.time_code->rate, 50);
+    }
+  }
+}
+
+TEST_F(PlayFile, DropFrameTimeCodesAreCountedAsSuch) {
+  auto settings = take_of(3);
+  std::string text = test::read_text(path);
+  test::write_text(path, text.replace(text.find("10:20:30:12:1"), 13, "23:58:59;29:1"));
+  settings.speed = 0;
+  settings.date = 0;
+  settings.rate = 59.94;
+  const auto source = open_source(settings, 50.0);
+  Reception r;
+  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  // 23:59:00;02:1 is the last minute's first field: 17982 frames in ten minutes, 1798 in the last one.
+  const std::int64_t last_minute = 2 * (144 * 17'982 - 1'798);
+  for (const auto& [code, count] : {std::pair("23:58:59;29:1", last_minute - 2),
+                                    {"23:58:59;29:2", last_minute - 1},
+                                    {"23:59:00;02:1", last_minute}}) {
+    ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+    EXPECT_EQ(time_code(r), code);
+    EXPECT_NEAR(static_cast<double>(r.sample.arrival), static_cast<double>(count) * 1e9 * 1001 / 60000, 1);
+  }
+  settings.rate = 50;
+  EXPECT_THAT(test::error_of<TransportError>([&] { static_cast<void>(open_source(settings, 50.0)); }),
+              HasSubstr("29.97, 59.94 and 119.88"));
+  settings.time = FileTime::now;
+  const auto without = open_source(settings, 50.0);
+  ASSERT_EQ(without->receive(r, 0ns), Event::sample);
+  ASSERT_EQ(without->receive(r, 0ns), Event::sample);
+  EXPECT_EQ(time_code(r), "-") << "none that fits the rate";
+}
+
 TEST_F(PlayFile, ArrivalIsTheTimeCodeOnTheDateAndRisesOverLoops) {
   auto settings = take_of(2);
   settings.speed = 0;
@@ -233,6 +284,7 @@ TEST_F(PlayFile, LenientLeavesOutALineAloneAndTheOthersKeepTheirTimes) {
     ASSERT_EQ(source->receive(r, 0ns), Event::sample);
     EXPECT_EQ(counter(r), static_cast<std::uint64_t>(i));
     EXPECT_EQ(r.sample.arrival, of_day + (i - 1) * field);
+    EXPECT_EQ(time_code(r), i == 1 ? "10:20:30:12:1" : "10:20:30:13:1");
   }
   EXPECT_EQ(source->receive(r, 0ns), Event::ended);
 }
@@ -342,7 +394,7 @@ TEST_F(PlayFile, WhatCannotBePlayedIsRefusedAtOpening) {
   empty.loop = true;
   EXPECT_THAT(error_of(empty), HasSubstr("loop=1"));
   auto settings = take_of(1);
-  EXPECT_THAT(error_of(settings, 24.0), HasSubstr("10:20:30:12:1"));
+  EXPECT_THAT(error_of(settings, 12.0), HasSubstr("10:20:30:12:1"));
   EXPECT_THAT(error_of(settings, 0.0), HasSubstr("rate"));
   EXPECT_THAT(error_of(settings, 1e300), HasSubstr("rate"));
   settings.date = 253'402'214'400;  // 9999-12-31

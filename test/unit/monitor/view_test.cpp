@@ -27,7 +27,7 @@ CameraState camera(std::uint32_t id) {
   camera::Lens lens;
   lens.image_distance = 12.5;
   auto params = test::params(1234567, id);
-  state.latest = ParamsState{params, "ASCII", camera::decode_pose(params), lens, 38.79, 0.012, false};
+  state.latest = ParamsState{params, "ASCII", camera::decode_pose(params), lens, 38.79, 0.012, false, {}};
   state.constants = test::constants();
   state.counts.accepted = 1000;
   state.rate = 50;
@@ -136,6 +136,12 @@ TEST(View, ManyCamerasAreALineEachAndTheRestCounted) {
   lines = text_of(state_with(20), {200, 60});
   ASSERT_THAT(lines, SizeIs(60));
   EXPECT_THAT(lines[59], Not(IsEmpty()));
+}
+
+TEST(View, HasTheTimeCode) {
+  State state = state_with(1);
+  state.cameras.front().latest->time_code = base::CountedTimeCode{{10, 20, 30, 12, 1, true}, 59.94};
+  EXPECT_THAT(plain_lines_of(state, 1).front(), HasSubstr("counter 1234567  10:20:30;12:1  age"));
 }
 
 TEST(View, TellsTrouble) {

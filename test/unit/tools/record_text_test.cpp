@@ -79,6 +79,15 @@ TEST(JsonLine, HasTheExactArrival) {
   EXPECT_THAT(std::string(line.of(sample_of(wire::CameraParams{}))), HasSubstr("\"arrival\":1700000000.123456789,"));
 }
 
+TEST(JsonLine, HasTheTimeCodeWhereThereIsOne) {
+  JsonLine line;
+  auto sample = sample_of(wire::CameraParams{});
+  EXPECT_FALSE(parsed(line.of(sample)).HasMember("time_code"));
+  sample.time_code = base::CountedTimeCode{{10, 20, 30, 12, 1, true}, 59.94};
+  EXPECT_STREQ(parsed(line.of(sample))["time_code"].GetString(), "10:20:30;12:1");
+  EXPECT_THAT(plain_line(sample), HasSubstr(" 10:20:30;12:1 id "));
+}
+
 TEST(JsonLine, WhatIsNotFiniteIsNull) {
   wire::CameraParams params;
   params.k1 = std::numeric_limits<double>::infinity();
