@@ -63,6 +63,7 @@ Sequence::Sequence(double field_rate, CounterUse use)
 }
 
 Order Sequence::judge(std::uint64_t counter, std::uint64_t fingerprint) noexcept {
+  step_ = 0;
   Order order = use_ == CounterUse::ignore ? Order::uncounted : order_of(counter, fingerprint);
   if (use_ == CounterUse::automatic) {
     watch(order);
@@ -104,6 +105,7 @@ Order Sequence::begin_at(std::uint64_t counter, Order verdict) noexcept {
 Order Sequence::ahead(std::uint64_t counter, std::uint64_t by) noexcept {
   if (by > restart_ahead_) return begin_at(counter, Order::restarted);
   newest_ = counter;
+  step_ = by;
   span_ += by;
   if (by > window) {
     came_.reset();

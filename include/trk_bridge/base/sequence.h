@@ -64,6 +64,9 @@ class Sequence {
   /// The next record comes from another sender: its counter is the first one.
   void forget_newest() noexcept { newest_.reset(); }
 
+  /// How many counts the last record is ahead of the newest one before it; 0 unless its verdict was Order::next.
+  std::uint64_t step() const noexcept { return step_; }
+
   const SequenceCounts& counts() const noexcept { return counts_; }
 
   /// Seconds' worth of counts a jump ahead may have before it is a restart and not loss.
@@ -94,6 +97,7 @@ class Sequence {
   std::uint64_t second_;         // counts
   std::uint64_t restart_ahead_;  // counts
   std::optional<std::uint64_t> newest_;
+  std::uint64_t step_ = 0;    // counts
   std::uint64_t span_ = 0;    // from the first counter of this run to the newest
   std::bitset<window> came_;  // bit n: newest_ - 1 - n came
 

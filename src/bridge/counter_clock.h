@@ -1,0 +1,88 @@
+// When samples were taken, from the rhythm of their counter: arrivals without the jitter of the network.
+#pragma once
+
+#include <cstdint>
+
+namespace trk_bridge::bridge {
+
+/// A rate of television.
+struct StandardRate {
+  const char* name;  ///< "59.94"
+  double rate;       ///< Hz, exact
+};
+/// The standard rate that `rate` (Hz) is, within 300 ppm; null where there is none.
+const StandardRate* standard_rate(double rate) noexcept;
+
+/// What a CounterClock has found out. Trivially copyable. Times in ns.
+struct CounterClockStatistics {
+  bool learned = false;            ///< stamps follow the counter; until then they are arrivals
+  double interval = 0;             ///< of a count; 0 before the first learning
+  double jitter_before = 0;        ///< standard deviation of the arrivals about the line, without outliers
+  double jitter_after = 0;         ///< likewise of the stamps: the standard error of the line
+  std::uint64_t outliers = 0;      ///< arrivals that the line was not corrected by
+  std::uint64_t steps = 0;         ///< of the path's delay
+  double last_step = 0;            ///< how far, where steps > 0; positive: it became longer
+  std::uint64_t restarts = 0;      ///< the counter began again or jumped
+  std::uint64_t rate_changes = 0;  ///< the rate was learned again
+};
+
+/// Fits arrival(n) = t0 + interval * n + jitter to one sender's samples: an alpha-beta filter with fading memory. A
+/// stamp is on that line, less three standard deviations of the jitter and a bit: at the early edge of the arrivals,
+/// because the constant part of the delay cannot be known from one side. Nothing is configured, the rate is found. Not
+/// synchronised, never allocates.
+class CounterClock {
+ public:
+  /// The stamp of the next sample, ns on the clock of `arrival`: never after `arrival`, at most `most_early` before it,
+  /// and after the one before as far as `arrival` is. `counts`: how far its counter is ahead of the sample before it;
+  /// 0 where that says nothing, because the counter began again.
+  [[nodiscard]] std::int64_t stamp(std::uint64_t counts, std::int64_t arrival) noexcept;
+
+  /// The next sample is the first of another sender, or of a counter that did not count.
+  void forget() noexcept;
+
+  const CounterClockStatistics& statistics() const noexcept { return statistics_; }
+
+  static constexpr double most_early = 0.5e9;  ///< ns
+  static constexpr double learning = 2e9;      ///< ns from the first sample on, while stamps are arrivals
+
+ private:
+  void begin() noexcept;
+  void follow(double counts, double elapsed) noexcept;
+  void resume() noexcept;
+  void note(double error, double counts, double elapsed, bool is_outlier) noexcept;
+  void correct(double error, double counts) noexcept;
+  bool is_long_run() const noexcept;
+  bool has_stepped() const noexcept;
+  void step() noexcept;
+  void move_line(double by, double samples) noexcept;
+  double gate() const noexcept;
+  double before_arrival() const noexcept;
+
+  /// Outliers on one side, without another sample between them.
+  struct Run {
+    double samples = 0;
+    double span = 0;    // ns
+    double errors = 0;  // ns, their sum
+    double first_counts = 0;
+  };
+
+  double samples_ = 0;         // that the line was fitted to; 0: there is none
+  double offset_samples_ = 0;  // likewise its offset alone
+  std::int64_t arrival_ = 0;   // of the last sample
+  double line_ = 0;            // ns, there, from arrival_
+  double interval_ = 0;        // ns
+  double age_ = 0;             // ns, since the line began or was interrupted
+
+  double deviation_ = 0;  // ns, mean absolute error of `deviations_` samples
+  double deviations_ = 0;
+  double recent_error_ = 0;     // ns, mean of the last seconds
+  double recent_outliers_ = 0;  // share of the last seconds' samples
+  Run run_;
+  double since_step_ = 0;  // ns
+  double gap_ = 0;         // ns, from the line to the one before a step: stamps close it slowly
+
+  std::int64_t newest_ = 0;
+  CounterClockStatistics statistics_;
+};
+
+}  // namespace trk_bridge::bridge
