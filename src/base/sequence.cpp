@@ -37,12 +37,18 @@ Step step_between(std::uint64_t from, std::uint64_t to) noexcept {
   return ahead < half ? Step{true, ahead} : Step{false, from - to};
 }
 
-std::uint64_t checked_second(double field_rate) {
-  if (!(field_rate > 0.0 && field_rate <= highest_rate)) {
+bool is_rate(double field_rate) noexcept { return field_rate > 0.0 && field_rate <= highest_rate; }
+
+std::uint64_t at_least_one(double counts) noexcept {
+  return static_cast<std::uint64_t>(std::max(1.0, std::round(counts)));
+}
+
+double checked(double field_rate) {
+  if (!is_rate(field_rate)) {
     throw std::invalid_argument("field_rate = " + std::to_string(field_rate) +
                                 ": allowed is more than 0 Hz and at most 1000000 Hz");
   }
-  return static_cast<std::uint64_t>(std::max(1.0, std::round(field_rate)));
+  return field_rate;
 }
 
 /// A counter that goes back by less, and does so again within as many records, runs in a circle. A second of 60 Hz is
@@ -56,10 +62,16 @@ std::uint64_t largest_circle(std::uint64_t second) noexcept {
 
 Sequence::Sequence(double field_rate, CounterUse use)
     : use_(use),
-      second_(checked_second(field_rate)),
-      restart_ahead_(static_cast<std::uint64_t>(std::max(1.0, std::round(restart_ahead * field_rate)))),
+      second_(at_least_one(checked(field_rate))),
+      restart_ahead_(at_least_one(restart_ahead * field_rate)),
       since_return_(largest_circle(second_)) {
   if (use == CounterUse::ignore) counts_.state = CounterState::ignored;
+}
+
+void Sequence::use_field_rate(double field_rate) noexcept {
+  if (!is_rate(field_rate)) return;
+  second_ = at_least_one(field_rate);
+  restart_ahead_ = at_least_one(restart_ahead * field_rate);
 }
 
 Order Sequence::judge(std::uint64_t counter, std::uint64_t fingerprint) noexcept {

@@ -10,11 +10,22 @@
 
 namespace trk_bridge::bridge {
 
+/// What a stamp is made of, less the delay.
+enum class StampMode : std::uint8_t {
+  arrival,  ///< Sample::arrival
+  counter,  ///< arrivals without jitter, see CounterClock; arrivals where the counter does not count
+  source,   ///< Sample::sample_time; arrivals where the record has none
+};
+
+/// Hz, of a camera whose rate is not known yet.
+inline constexpr double assumed_field_rate = 50;
+
 struct CameraOptions {
   /// None: records of every id are this camera's; then its source must serve this camera alone.
   std::optional<std::uint32_t> id;
   /// FormatBit mask of published parameters; none: they stay in the sender's format.
   std::optional<std::uint32_t> format = wire::euler;
+  StampMode stamp = StampMode::arrival;
   double delay = 0;                                ///< s, taken off every stamp
   std::optional<wire::CameraConstants> constants;  ///< until the sender's own ones come
   base::CounterUse counter = base::CounterUse::automatic;

@@ -18,10 +18,11 @@ std::chrono::nanoseconds nanoseconds_of(double seconds) {
 
 }  // namespace
 
-CameraPipeline::CameraPipeline(const CameraOptions& options, double field_rate)
+CameraPipeline::CameraPipeline(const CameraOptions& options, std::optional<double> field_rate)
     : options_(options),
       lock_(nanoseconds_of(options.failover)),
-      sequence_(field_rate, options.counter),
+      finds_rate_(!field_rate),
+      sequence_(field_rate.value_or(assumed_field_rate), options.counter),
       stamper_(nanoseconds_of(options.delay)),
       converter_(options.format) {
   if (options.constants && converter_.use(*options.constants) != ConstantsChange::unsound) {
@@ -87,6 +88,7 @@ CameraUpdate CameraPipeline::process(const wire::CameraParams& params, const tra
     return drop(*reason);
   }
   if (!is_new(params, sample)) return {};
+  const std::int64_t time = time_of(sample);
   statistics_.last_new = now;
   statistics_.sender = sample.sender;
   statistics_.encoding = sample.origin;
@@ -94,7 +96,7 @@ CameraUpdate CameraPipeline::process(const wire::CameraParams& params, const tra
   if (!sample.has_lens) ++statistics_.without_lens;
 
   if (reason) return drop(*reason);
-  const auto stamped = stamp(sample.arrival);
+  const auto stamped = stamp(time);
   if (!stamped) return {};
 
   CameraUpdate update;
@@ -120,6 +122,7 @@ void CameraPipeline::note_failover() noexcept {
   ++statistics_.failovers;
   statistics_.silent_sender = *lock_.holder();
   sequence_.forget_newest();
+  clock_.forget();
 }
 
 bool CameraPipeline::is_new(const wire::CameraParams& params, const transport::Sample& sample) noexcept {
@@ -134,8 +137,38 @@ bool CameraPipeline::is_new(const wire::CameraParams& params, const transport::S
   return accepted;
 }
 
-std::optional<std::int64_t> CameraPipeline::stamp(std::int64_t arrival) noexcept {
-  const auto stamp = stamper_.stamp(arrival);
+std::int64_t CameraPipeline::time_of(const transport::Sample& sample) noexcept {
+  const std::int64_t by_rhythm = by_counter(sample);
+  statistics_.rhythm = clock_.statistics();
+  if (finds_rate_ && statistics_.rhythm.learned) sequence_.use_field_rate(1e9 / statistics_.rhythm.interval);
+  if (sample.sample_time) statistics_.source_behind = sample.arrival - *sample.sample_time;
+  switch (options_.stamp) {
+    case StampMode::arrival:
+      statistics_.stamp_state = StampState::arrival;
+      break;
+    case StampMode::counter:
+      return by_rhythm;
+    case StampMode::source:
+      statistics_.stamp_state = sample.sample_time ? StampState::source : StampState::no_source_time;
+      return sample.sample_time.value_or(sample.arrival);
+  }
+  return sample.arrival;
+}
+
+std::int64_t CameraPipeline::by_counter(const transport::Sample& sample) noexcept {
+  const bool counts = statistics_.sequence.state == base::CounterState::counts;
+  if (!sample.has_counter || !counts || !can_be_stamp(sample.arrival)) {
+    statistics_.stamp_state = sample.has_counter ? StampState::uncounted : StampState::no_counter;
+    if (!sample.has_counter || !counts) clock_.forget();
+    return sample.arrival;
+  }
+  const std::int64_t time = clock_.stamp(sequence_.step(), sample.arrival);
+  statistics_.stamp_state = clock_.statistics().learned ? StampState::counter : StampState::learning;
+  return time;
+}
+
+std::optional<std::int64_t> CameraPipeline::stamp(std::int64_t time) noexcept {
+  const auto stamp = stamper_.stamp(time);
   if (!stamp) {
     ++statistics_.dropped;
     ++statistics_.unstampable;

@@ -8,6 +8,7 @@
 
 #include "camera_options.h"
 #include "constants_origin.h"
+#include "counter_clock.h"
 #include "sender_lock.h"
 #include "stamper.h"
 #include "trk_bridge/base/sequence.h"
@@ -16,6 +17,17 @@
 #include "trk_bridge/transport/sample.h"
 
 namespace trk_bridge::bridge {
+
+/// What the last stamp was made of, and why it was not what is wanted.
+enum class StampState : std::uint8_t {
+  arrival,
+  learning,    ///< arrival: the counter's rate is not known yet
+  no_counter,  ///< arrival: the protocol has none
+  uncounted,   ///< arrival: the counter does not count
+  counter,
+  no_source_time,  ///< arrival: the record has no time of the sender's own
+  source,
+};
 
 /// What became of a camera's records so far. Trivially copyable. "New" are those that base::Sequence takes for new, and
 /// all of protocols without a counter.
@@ -32,10 +44,13 @@ struct CameraStatistics {
   std::uint64_t id_changes = 0;           ///< how often a record had another id than the one before
   std::uint64_t foreign = 0;              ///< records of other senders than `sender`: ignored; `foreign_sender`
   std::uint64_t failovers = 0;            ///< how often another sender was followed; the one before: `silent_sender`
-  std::uint64_t held_stamps = 0;          ///< see Stamper
-  std::int64_t stamp_ahead = 0;           ///< ns, see Stamper
-  std::uint64_t clock_steps = 0;          ///< see Stamper
-  std::int64_t clock_step = 0;            ///< ns, see Stamper
+  StampState stamp_state{};
+  CounterClockStatistics rhythm;              ///< of the counter, whatever stamps are made of
+  std::optional<std::int64_t> source_behind;  ///< ns, arrival less the sender's own time, of the last one that has one
+  std::uint64_t held_stamps = 0;              ///< see Stamper
+  std::int64_t stamp_ahead = 0;               ///< ns, see Stamper
+  std::uint64_t clock_steps = 0;              ///< see Stamper
+  std::int64_t clock_step = 0;                ///< ns, see Stamper
   std::uint32_t last_id = 0;
   std::uint32_t last_format = 0;  ///< as received
   ConstantsOrigin constants = ConstantsOrigin::none;
@@ -63,8 +78,8 @@ struct CameraUpdate {
 /// Not synchronised: one thread at a time. Never allocates.
 class CameraPipeline {
  public:
-  /// `field_rate` in Hz, see base::Sequence.
-  CameraPipeline(const CameraOptions&, double field_rate);
+  /// `field_rate` in Hz, see base::Sequence; none: it is found.
+  CameraPipeline(const CameraOptions&, std::optional<double> field_rate);
 
   /// Whether a record is this camera's.
   bool wants(const wire::Record&) const noexcept;
@@ -84,14 +99,19 @@ class CameraPipeline {
   /// Another sender than the one before, if there was one, is followed from now on.
   void note_failover() noexcept;
   bool is_new(const wire::CameraParams&, const transport::Sample&) noexcept;
-  std::optional<std::int64_t> stamp(std::int64_t arrival) noexcept;
+  /// When a new sample was taken, as far as options_.stamp says how.
+  std::int64_t time_of(const transport::Sample&) noexcept;
+  std::int64_t by_counter(const transport::Sample&) noexcept;
+  std::optional<std::int64_t> stamp(std::int64_t time) noexcept;
   void add_lens(const camera::Converted&, CameraUpdate&) noexcept;
   camera::Result<camera::Calibration> calibrate(const camera::Result<camera::Lens>&) noexcept;
   CameraUpdate drop(camera::CameraReason) noexcept;
 
   CameraOptions options_;
   SenderLock lock_;
+  const bool finds_rate_;
   base::Sequence sequence_;
+  CounterClock clock_;
   Stamper stamper_;
   camera::Converter converter_;
   camera::Calibrator calibrator_;

@@ -1,5 +1,8 @@
 #include "diagnostics.h"
 
+#include <cmath>
+#include <cstdio>
+
 #include "diagnostic_text.h"
 #include "trk_bridge/wire/format.h"
 
@@ -7,6 +10,9 @@ namespace trk_bridge::bridge {
 namespace {
 
 using transport::SourceState;
+
+/// Whole seconds that TAI is ahead of UTC, since 2017.
+constexpr long long tai_ahead = 37;
 
 double rate_of(const CameraReport& now, const CameraReport& before) {
   return rate_between(before.camera.sequence.accepted, now.camera.sequence.accepted, before.time, now.time);
@@ -36,6 +42,37 @@ const char* counter_text(base::CounterState state) {
       return "ignored";
   }
   return "";
+}
+
+std::string stamp_text(const CameraStatistics& camera) {
+  switch (camera.stamp_state) {
+    case StampState::arrival:
+      return "arrival";
+    case StampState::learning:
+      return "arrival: the counter's rate is being learned";
+    case StampState::no_counter:
+      return "arrival: the records have no counter";
+    case StampState::uncounted:
+      return std::string("arrival: the counter ") + counter_text(camera.sequence.state);
+    case StampState::counter:
+      return "counter";
+    case StampState::no_source_time:
+      return "arrival: the records have no time of the sender";
+    case StampState::source:
+      return "source";
+  }
+  return "";
+}
+
+std::string milliseconds_text(double nanoseconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", nanoseconds / 1e6);
+  return text;
+}
+
+/// "37.0 s ahead of", "2.1 s behind".
+std::string offset_text(std::int64_t behind) {
+  return duration_text(std::abs(seconds_between(0, behind))) + (behind < 0 ? " ahead of" : " behind");
 }
 
 std::string camera_info_text(const CameraStatistics& camera) {
@@ -180,6 +217,58 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
   }
 }
 
+void add_stamp_findings(std::vector<Finding>& found, const CameraReport& now, const CameraReport& before,
+                        const CameraOptions& options) {
+  const auto& camera = now.camera;
+  const auto& rhythm = camera.rhythm;
+  const auto& old = before.camera.rhythm;
+  if (camera.stamp_state == StampState::no_source_time) {
+    warn(found, Condition::stamps_are_arrivals,
+         "stamp: source, but the records have no time of the sender: stamps are arrivals");
+  }
+  if (camera.stamp_state == StampState::no_counter) {
+    found.push_back({Condition::stamps_are_arrivals, Level::ok, "the records have no counter: stamps are arrivals"});
+  }
+  if (camera.source_behind && std::abs(seconds_between(0, *camera.source_behind)) >= 1) {
+    const bool is_tai = std::abs(std::llround(seconds_between(0, *camera.source_behind))) == tai_ahead;
+    warn(found, Condition::source_clock_off,
+         "the sender's time is " + offset_text(*camera.source_behind) + " this machine's clock" +
+             (is_tai ? ": one is TAI (PTP), the other UTC; nothing is corrected" : ""));
+  }
+  if (options.stamp != StampMode::counter) return;
+  if (rhythm.steps > old.steps) {
+    warn(found, Condition::path_stepped,
+         "the delay of the path became " + milliseconds_text(std::abs(rhythm.last_step)) + " ms " +
+             (rhythm.last_step > 0 ? "longer" : "shorter") + ": stamps follow it");
+  }
+  if (rhythm.restarts > old.restarts) {
+    warn(found, Condition::counter_restarted, "the counter restarted or jumped: stamps keep its rate");
+  }
+  if (rhythm.rate_changes > old.rate_changes) {
+    warn(found, Condition::rate_changed, "the counter's rate changed: stamps are arrivals until it is learned");
+  }
+}
+
+void add_stamp_values(Status& status, const CameraStatistics& camera) {
+  const auto& rhythm = camera.rhythm;
+  const double rate = rhythm.interval > 0 ? 1e9 / rhythm.interval : 0;
+  const StandardRate* standard = standard_rate(rate);
+  const bool by_counter = camera.stamp_state == StampState::counter;
+  status.add("stamps", camera.sequence.accepted > 0 ? stamp_text(camera) : std::string("none yet"));
+  status.add("counter rate (Hz)", rate > 0 ? std::to_string(rate) : std::string("none yet"));
+  status.add("standard rate (Hz)", standard != nullptr ? standard->name : "none");
+  status.add("off standard rate (ppm)",
+             standard != nullptr ? two_decimals((rate / standard->rate - 1) * 1e6) : std::string("none"));
+  status.add("jitter of arrivals (ms)", milliseconds_text(rhythm.jitter_before));
+  status.add("jitter of stamps (ms)", milliseconds_text(by_counter ? rhythm.jitter_after : rhythm.jitter_before));
+  status.add("arrivals left out", rhythm.outliers);
+  status.add("delay steps", rhythm.steps);
+  status.add("counter restarts", rhythm.restarts);
+  status.add("rate changes", rhythm.rate_changes);
+  status.add("sender's time behind (s)",
+             camera.source_behind ? std::to_string(seconds_between(0, *camera.source_behind)) : std::string("none"));
+}
+
 }  // namespace
 
 std::vector<Finding> findings(const CameraReport& now, const CameraReport& before, const CameraOptions& options,
@@ -188,6 +277,7 @@ std::vector<Finding> findings(const CameraReport& now, const CameraReport& befor
   add_source_findings(found, now, before);
   add_sender_findings(found, now, before, options);
   add_camera_findings(found, now, before, options);
+  add_stamp_findings(found, now, before, options);
   return found;
 }
 
@@ -227,6 +317,7 @@ void fill(Status& status, const std::vector<Finding>& found, const CameraReport&
   status.add("camera_info", camera_info_text(camera));
   status.add("lens fit residual (px)",
              camera.has_camera_info ? std::to_string(camera.fit_residual) : std::string("none"));
+  add_stamp_values(status, camera);
   status.add("stamps held", camera.held_stamps);
   status.add("clock steps back", camera.clock_steps);
   status.add("last error", now.source.error.empty() ? std::string("none") : now.source.error);

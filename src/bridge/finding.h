@@ -41,6 +41,11 @@ enum class Condition : std::uint8_t {
   no_camera_info,
   no_markers,
   stamps_held,
+  stamps_are_arrivals,
+  path_stepped,
+  counter_restarted,
+  rate_changed,
+  source_clock_off,
   clock_stepped,
   // of both
   lens_inexact,

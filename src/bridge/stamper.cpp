@@ -2,10 +2,10 @@
 
 namespace trk_bridge::bridge {
 
-std::optional<std::int64_t> Stamper::stamp(std::int64_t arrival) noexcept {
-  // An arrival from outside of ROS time must not push the stamps of all that come after it.
-  if (arrival < 0 || arrival > latest_stamp) return std::nullopt;
-  const std::int64_t wanted = arrival - delay_;
+std::optional<std::int64_t> Stamper::stamp(std::int64_t time) noexcept {
+  // A time from outside of ROS time must not push the stamps of all that come after it.
+  if (time < 0 || time > latest_stamp) return std::nullopt;
+  const std::int64_t wanted = time - delay_;
   std::int64_t given = wanted;
   if (newest_ > 0 && given <= newest_) {
     if (newest_ - wanted > most_ahead) {
@@ -22,9 +22,9 @@ std::optional<std::int64_t> Stamper::stamp(std::int64_t arrival) noexcept {
   return given;
 }
 
-std::int64_t Stamper::unordered(std::int64_t arrival) const noexcept {
-  if (arrival < 0 || arrival > latest_stamp) return 0;
-  const std::int64_t wanted = arrival - delay_;
+std::int64_t Stamper::unordered(std::int64_t time) const noexcept {
+  if (time < 0 || time > latest_stamp) return 0;
+  const std::int64_t wanted = time - delay_;
   return can_be_stamp(wanted) ? wanted : 0;
 }
 

@@ -18,10 +18,9 @@ inline constexpr std::int64_t latest_stamp =
   return nanoseconds > 0 && nanoseconds <= latest_stamp;
 }
 
-/// Stamps of one camera: arrival less the tracking system's delay, strictly increasing. Where the clock stands or steps
-/// back by a little, stamps go on by `least_step` from the newest one until it has caught up. Where that would put them
-/// ahead by more than `most_ahead`, they follow the clock.
-/// Not synchronised, never allocates.
+/// Stamps of one camera: when its samples were taken, less the tracking system's delay, strictly increasing. Where the
+/// clock stands or steps back by a little, stamps go on by `least_step` from the newest one until it has caught up.
+/// Where that would put them ahead by more than `most_ahead`, they follow the clock. Not synchronised, never allocates.
 class Stamper {
  public:
   /// ns; still apart when a stamp is taken for a double of seconds (2.4e-7 s near today's date).
@@ -31,15 +30,15 @@ class Stamper {
 
   explicit Stamper(std::chrono::nanoseconds delay) noexcept : delay_(delay.count()) {}
 
-  /// `arrival` and the stamp in nanoseconds since 1970 UTC. None where it cannot be a stamp.
-  [[nodiscard]] std::optional<std::int64_t> stamp(std::int64_t arrival) noexcept;
+  /// `time` and the stamp in nanoseconds since 1970 UTC. None where it cannot be a stamp.
+  [[nodiscard]] std::optional<std::int64_t> stamp(std::int64_t time) noexcept;
 
-  /// Arrival less delay alone, for what needs no order; 0 ("no time") where it cannot be a stamp.
-  [[nodiscard]] std::int64_t unordered(std::int64_t arrival) const noexcept;
+  /// Time less delay alone, for what needs no order; 0 ("no time") where it cannot be a stamp.
+  [[nodiscard]] std::int64_t unordered(std::int64_t time) const noexcept;
 
-  /// Stamps that could not be arrival less delay.
+  /// Stamps that could not be time less delay.
   std::uint64_t held() const noexcept { return held_; }
-  /// How far the last stamp is ahead of its arrival less delay, nanoseconds; 0 in order.
+  /// How far the last stamp is ahead of its time less delay, nanoseconds; 0 in order.
   std::int64_t ahead() const noexcept { return ahead_; }
   /// How often stamps went back with the clock, and how far they did the last time, ns.
   std::uint64_t steps() const noexcept { return steps_; }

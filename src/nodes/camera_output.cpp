@@ -6,17 +6,17 @@
 
 namespace trk_bridge::nodes {
 
-CameraOutput::CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters& parameters, double field_rate,
-                           int queue_size, const ::ros::Publisher& markers)
+CameraOutput::CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters& parameters,
+                           std::optional<double> field_rate, int queue_size, const ::ros::Publisher& markers)
     : parameters_(parameters),
       pipeline_(parameters.options, field_rate),
       messages_(parameters.frames),
-      field_rate_(field_rate),
+      field_rate_(field_rate.value_or(bridge::assumed_field_rate)),
       marker_topic_(markers),
       reporter_(parameters.name) {
   if (parameters.publish_markers) {
     markers_.emplace(parameters.name, parameters.frames.optical, parameters.marker_far,
-                     bridge::silence_after(field_rate));
+                     bridge::silence_after(field_rate_));
   }
   const auto queue = static_cast<std::uint32_t>(queue_size);
   params_ = node.advertise<trk_bridge::CameraParams>("params", queue);

@@ -24,7 +24,7 @@ class CameraOutput {
   /// Advertises `params`, `constants`, `camera_info` and `time_code` in the namespace of `node`, and publishes the
   /// parameter's constants where there are any. `markers` is a topic that cameras share; it is used only where
   /// publish_markers is set.
-  CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&, double field_rate, int queue_size,
+  CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&, std::optional<double> field_rate, int queue_size,
                const ::ros::Publisher& markers);
 
   bool wants(const wire::Record& record) const noexcept { return pipeline_.wants(record); }

@@ -43,9 +43,10 @@ void TrkToRos::open(const ros1::TrkToRosParameters& parameters, const ::ros::Pub
         std::make_unique<CameraOutput>(topics, camera, parameters.field_rate, parameters.queue_size, markers));
     by_source[camera.source->url].push_back(cameras_.back().get());
   }
+  const double field_rate = parameters.field_rate.value_or(bridge::assumed_field_rate);
   for (const auto& [url, cameras] : by_source) {
     const auto& endpoint = cameras.front()->parameters().source;
-    readers_.push_back(std::make_unique<SourceReader>(endpoint->open(parameters.field_rate), cameras));
+    readers_.push_back(std::make_unique<SourceReader>(endpoint->open(field_rate), cameras));
     for (auto* camera : cameras) {
       diagnostics_.add(camera->parameters().name,
                        [camera, reader = readers_.back().get()] { return camera->describe(reader->report()); });

@@ -28,6 +28,10 @@ void read_shared(ParameterReader& reader, CameraParameters& camera) {
   reader.parsed("source", camera.source, parse_source);
   reader.parsed("studio_frame", camera.frames.studio, parse_frame);
   reader.parsed("format", options.format, parse_published_format);
+  reader.choice("stamp", camera.stamp,
+                {{"arrival", bridge::StampMode::arrival},
+                 {"counter", bridge::StampMode::counter},
+                 {"source", bridge::StampMode::source}});
   reader.number("delay", options.delay, {0, 60, "seconds"});
   reader.choice("counter", options.counter,
                 {{"auto", base::CounterUse::automatic},
@@ -52,6 +56,9 @@ void read_own(ParameterReader& reader, const std::string& name, CameraParameters
   reader.id("id", camera.options.id);
   reader.parsed("camera_frame", frames.camera, parse_frame);
   reader.parsed("optical_frame", frames.optical, parse_frame);
+
+  const bool over_network = camera.source && camera.source->over_network;
+  camera.options.stamp = camera.stamp.value_or(over_network ? bridge::StampMode::counter : bridge::StampMode::arrival);
 
   if (!camera.source && reader.are_sound({"source"})) reader.fault("source", "''", source_needed);
   constexpr const char* must_differ = "must differ from the camera's other frames";
@@ -153,7 +160,8 @@ TrkToRosParameters read_trk_to_ros_parameters(const XmlRpc::XmlRpcValue& tree, c
   ParameterReader node(tree);
   TrkToRosParameters parameters;
   node.diagnostic_period();
-  node.number("field_rate", parameters.field_rate, field_rate_range);
+  double field_rate = 0;
+  if (node.number("field_rate", field_rate, field_rate_range)) parameters.field_rate = field_rate;
   node.integer("queue_size", parameters.queue_size, {1, 100000});
   CameraParameters camera;
   read_shared(node, camera);

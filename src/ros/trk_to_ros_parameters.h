@@ -27,9 +27,10 @@ struct CameraParameters {
   std::string name;                                 ///< names its topics, frames and diagnostics
   std::optional<transport::SourceEndpoint> source;  ///< required: always there once read
   CameraFrames frames;                              ///< default: default_frames(name)
-  bridge::CameraOptions options;
-  bool publish_markers = false;  ///< needs publish_camera_info
-  double marker_far = 3;         ///< m, where the markers' frustum and axis end
+  std::optional<bridge::StampMode> stamp;           ///< as given; by default counter over a network, else arrival
+  bridge::CameraOptions options;                    ///< its `stamp` is what counts
+  bool publish_markers = false;                     ///< needs publish_camera_info
+  double marker_far = 3;                            ///< m, where the markers' frustum and axis end
 };
 
 /// Parameters of the node, with their defaults.
@@ -38,8 +39,8 @@ struct TrkToRosParameters {
   /// Whether `cameras` was given: then each one's topics are in a namespace of its name, else the only one's in the
   /// node's namespace itself.
   bool several = false;
-  double field_rate = 50;  ///< Hz
-  int queue_size = 100;    ///< messages
+  std::optional<double> field_rate;  ///< Hz; none: found for counters, bridge::assumed_field_rate for files
+  int queue_size = 100;              ///< messages
 };
 
 /// Reads a node's private parameters. `camera_name` is the single camera's where no `cameras` are given. Throws

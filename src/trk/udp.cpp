@@ -69,6 +69,7 @@ const transport::Scheme udp_scheme{
       if (!settings) return tl::make_unexpected(settings.error());
       transport::SourceEndpoint endpoint;
       endpoint.place = transport::place_of(*settings);
+      endpoint.over_network = true;
       endpoint.open = [settings = *settings](double) { return open_udp_source(settings); };
       return endpoint;
     },

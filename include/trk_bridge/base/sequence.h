@@ -64,6 +64,9 @@ class Sequence {
   /// The next record comes from another sender: its counter is the first one.
   void forget_newest() noexcept { newest_.reset(); }
 
+  /// The same as in the constructor, where it becomes known later. What is no rate changes nothing.
+  void use_field_rate(double field_rate) noexcept;
+
   /// How many counts the last record is ahead of the newest one before it; 0 unless its verdict was Order::next.
   std::uint64_t step() const noexcept { return step_; }
 

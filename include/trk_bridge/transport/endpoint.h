@@ -14,9 +14,10 @@ namespace trk_bridge::transport {
 
 /// A URL to read from. Copies may be opened again and again.
 struct SourceEndpoint {
-  std::string url;        ///< as it was given
-  std::string place;      ///< equal for two endpoints that read the same port, slot or file
-  bool can_wait = false;  ///< nothing is lost where its records are taken late: a take without a pace of its own
+  std::string url;            ///< as it was given
+  std::string place;          ///< equal for two endpoints that read the same port, slot or file
+  bool over_network = false;  ///< its records arrive with a network's jitter
+  bool can_wait = false;      ///< nothing is lost where its records are taken late: a take without a pace of its own
   /// `field_rate` (Hz) counts for takes whose URL has no `rate`. Throws TransportError: a port in use, a host that is
   /// not known, a file with an error in line N (`take.trk:57: field 9 is not a number`), … A shared memory slot, an
   /// address of this machine or an interface that is not there yet is no error.

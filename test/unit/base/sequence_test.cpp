@@ -26,6 +26,31 @@ TEST(Sequence, OnlyNewRecordsAreNews) {
   EXPECT_FALSE(is_new(Order::late));
 }
 
+TEST(Sequence, SaysHowFarARecordIsAheadOfTheNewest) {
+  Sequence sequence;
+  const auto step_of = [&sequence](std::uint64_t counter) {
+    (void)sequence.judge(counter);
+    return sequence.step();
+  };
+  EXPECT_EQ(step_of(0xFFFD), 0u) << "the first";
+  EXPECT_EQ(step_of(0xFFFE), 1u);
+  EXPECT_EQ(step_of(0xFFFE), 0u) << "twice";
+  EXPECT_EQ(step_of(1), 3u) << "16 bits";
+  EXPECT_EQ(step_of(0), 0u) << "late";
+  EXPECT_EQ(step_of(2), 1u);
+  EXPECT_EQ(step_of(100000), 0u) << "restarted";
+}
+
+TEST(Sequence, AFieldRateThatBecomesKnownMovesTheLimitOfLoss) {
+  Sequence sequence(50);
+  (void)sequence.judge(1);
+  EXPECT_EQ(sequence.judge(1 + 3001), Order::restarted) << "more than 60 s of 50 Hz";
+  sequence.use_field_rate(100);
+  EXPECT_EQ(sequence.judge(3002 + 3001), Order::next);
+  sequence.use_field_rate(0);
+  EXPECT_EQ(sequence.judge(6003 + 3001), Order::next) << "0 Hz is no rate";
+}
+
 TEST(Sequence, CountsWhatIsMissing) {
   Sequence sequence;
   (void)sequence.judge(10);

@@ -44,7 +44,8 @@ wire::CameraConstants constants() { return {0, 1920, 1080, 0, 0, 0, 0, 9.59, 5.3
 TEST(Allocation, DoesNotHappenForSamples) {
   CameraOptions options;
   options.format = wire::euler | wire::field_of_view;
-  CameraPipeline pipeline(options, 50);
+  options.stamp = StampMode::counter;
+  CameraPipeline pipeline(options, std::nullopt);
   transport::Sample sample;
   wire::CameraParams params;
   params.format = wire::euler | wire::shift_in_pixels;

@@ -89,6 +89,78 @@ TEST_F(Diagnostics, OtherIdsOnly) {
   expect(Level::warn, "none with id 7; seen: 3, 4");
 }
 
+TEST_F(Diagnostics, WhatStampsAreMadeOfAndTheRhythmOfTheCounter) {
+  options.stamp = StampMode::counter;
+  auto& camera = now.camera;
+  camera.stamp_state = StampState::learning;
+  EXPECT_EQ(value("stamps"), "arrival: the counter's rate is being learned");
+  EXPECT_EQ(value("counter rate (Hz)"), "none yet");
+  EXPECT_EQ(value("standard rate (Hz)"), "none");
+  camera.stamp_state = StampState::counter;
+  camera.rhythm.interval = 1e9 / (60000 / 1001.0) * 1.0001;
+  camera.rhythm.jitter_before = 2.1e6;
+  camera.rhythm.jitter_after = 0.06e6;
+  expect(Level::ok, "receiving from");
+  EXPECT_EQ(value("stamps"), "counter");
+  EXPECT_EQ(value("counter rate (Hz)"), "59.934066");
+  EXPECT_EQ(value("standard rate (Hz)"), "59.94");
+  EXPECT_EQ(value("off standard rate (ppm)"), "-99.99");
+  EXPECT_EQ(value("jitter of arrivals (ms)"), "2.100");
+  EXPECT_EQ(value("jitter of stamps (ms)"), "0.060");
+  camera.stamp_state = StampState::arrival;
+  EXPECT_EQ(value("jitter of stamps (ms)"), "2.100");
+  camera.rhythm.interval = 1e9 / 75;
+  EXPECT_EQ(value("standard rate (Hz)"), "none");
+  EXPECT_EQ(value("off standard rate (ppm)"), "none");
+}
+
+TEST_F(Diagnostics, StepsRestartsAndRateChangesOfTheCounterWarnWhereStampsFollowIt) {
+  now.camera.stamp_state = StampState::counter;
+  now.camera.rhythm.steps = now.camera.rhythm.restarts = now.camera.rhythm.rate_changes = 1;
+  now.camera.rhythm.last_step = -3.2e6;
+  options.stamp = StampMode::arrival;
+  expect(Level::ok, "receiving from");
+  options.stamp = StampMode::counter;
+  expect(Level::warn, "the delay of the path became 3.200 ms shorter");
+  expect(Level::warn, "the counter restarted or jumped");
+  expect(Level::warn, "the counter's rate changed");
+  EXPECT_EQ(value("delay steps"), "1");
+  EXPECT_EQ(value("counter restarts"), "1");
+  EXPECT_EQ(value("rate changes"), "1");
+  before = now;
+  now.camera.last_new = now.time += second;
+  expect(Level::ok, "receiving from");
+}
+
+TEST_F(Diagnostics, ReasonsWhyStampsAreArrivals) {
+  options.stamp = StampMode::counter;
+  now.camera.stamp_state = StampState::uncounted;
+  now.camera.sequence.state = base::CounterState::stands;
+  EXPECT_EQ(value("stamps"), "arrival: the counter stands still");
+  now.camera.stamp_state = StampState::no_counter;
+  now.camera.sequence.state = base::CounterState::counts;
+  EXPECT_EQ(value("stamps"), "arrival: the records have no counter");
+  expect(Level::ok, "the records have no counter: stamps are arrivals");
+  options.stamp = StampMode::source;
+  now.camera.stamp_state = StampState::no_source_time;
+  EXPECT_EQ(value("stamps"), "arrival: the records have no time of the sender");
+  expect(Level::warn, "stamp: source, but the records have no time of the sender: stamps are arrivals");
+}
+
+TEST_F(Diagnostics, ASendersClockOnTaiIsNamed) {
+  EXPECT_EQ(value("sender's time behind (s)"), "none");
+  now.camera.source_behind = -37 * second + 30'000'000;
+  expect(Level::warn, "the sender's time is 37.0 s ahead of this machine's clock: one is TAI (PTP), the other UTC");
+  now.camera.source_behind = 37 * second + 30'000'000;
+  expect(Level::warn, "the sender's time is 37.0 s behind this machine's clock: one is TAI (PTP), the other UTC");
+  now.camera.source_behind = 12 * second;
+  expect(Level::warn, "the sender's time is 12.0 s behind this machine's clock");
+  EXPECT_THAT(status().message, Not(HasSubstr("TAI")));
+  now.camera.source_behind = 30'000'000;
+  expect(Level::ok, "receiving from");
+  EXPECT_EQ(value("sender's time behind (s)"), "0.030000");
+}
+
 TEST_F(Diagnostics, ASilenceOfMoreThanASecondWarns) {
   now.camera.last_new = now.time - 3 * second;
   expect(Level::warn, "nothing new for 3.0 s");

@@ -126,6 +126,8 @@ TEST(Endpoints, WhatAFormDoesNotSayComesFromTheDefaults) {
 
 TEST(Endpoints, OnlyATakeWithoutAPaceCanWait) {
   EXPECT_TRUE(parse_source("file:a?speed=0&loop=1")->can_wait);
+  EXPECT_TRUE(parse_source("udp://:7000")->over_network);
+  EXPECT_FALSE(parse_source("shm:7")->over_network || parse_source("file:a")->over_network);
   for (const char* url : {"file:a", "file:a?speed=1000", "udp://:7000", "shm:7"}) {
     EXPECT_FALSE(parse_source(url)->can_wait) << url;
   }

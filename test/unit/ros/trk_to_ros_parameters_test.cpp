@@ -80,6 +80,7 @@ const Wrong wrong_ones[] = {
     {"NoPort", [](XmlRpcValue& t) { t["source"] = "udp://"; }, "~source = 'udp://'", "port"},
     {"Scheme", [](XmlRpcValue& t) { t["source"] = "tcp://:1"; }, "~source = 'tcp://:1'", "udp"},
     {"Rate", [](XmlRpcValue& t) { t["field_rate"] = 0; }, "~field_rate = 0", "must be 1 to 1000 Hz"},
+    {"Stamp", [](XmlRpcValue& t) { t["stamp"] = "counted"; }, "~stamp = 'counted'", "arrival or counter or source"},
     {"RateNan", [](XmlRpcValue& t) { t["field_rate"] = std::nan(""); }, "~field_rate = nan", "1 to 1000 Hz"},
     {"Stamp", [](XmlRpcValue& t) { t["stamp"] = "counter"; }, "~stamp = 'counter'", "no such parameter"},
     {"Queue", [](XmlRpcValue& t) { t["queue_size"] = 0; }, "~queue_size = 0", "must be 1 to 100000"},
@@ -208,7 +209,7 @@ TEST(Read, DefaultsNameTheCameraAndItsFrames) {
   const auto p = read_trk_to_ros_parameters(tree_with_source(), "crane1");
   ASSERT_EQ(p.cameras.size(), 1u);
   EXPECT_FALSE(p.several);
-  EXPECT_EQ(p.field_rate, 50);
+  EXPECT_FALSE(p.field_rate) << "it is found";
   EXPECT_EQ(p.queue_size, 100);
   const auto& c = p.cameras[0];
   EXPECT_EQ(c.name, "crane1");
@@ -223,6 +224,29 @@ TEST(Read, DefaultsNameTheCameraAndItsFrames) {
   EXPECT_TRUE(c.options.publish_tf && c.options.publish_camera_info);
   EXPECT_FALSE(c.publish_markers);
   EXPECT_EQ(c.marker_far, 3);
+}
+
+TEST(Read, StampsAreByCounterOverANetworkUnlessGiven) {
+  using bridge::StampMode;
+  const auto stamp_of = [](const char* source, const char* stamp) {
+    auto tree = tree_with_source();
+    tree["source"] = source;
+    if (*stamp != 0) tree["stamp"] = stamp;
+    return read_trk_to_ros_parameters(tree, "crane1").cameras[0].options.stamp;
+  };
+  EXPECT_EQ(stamp_of("udp://:7000", ""), StampMode::counter);
+  EXPECT_EQ(stamp_of("shm:7", ""), StampMode::arrival);
+  EXPECT_EQ(stamp_of("file:take.trk", ""), StampMode::arrival);
+  EXPECT_EQ(stamp_of("udp://:7000", "arrival"), StampMode::arrival);
+  EXPECT_EQ(stamp_of("shm:7", "counter"), StampMode::counter);
+  EXPECT_EQ(stamp_of("udp://:7000", "source"), StampMode::source);
+
+  auto tree = two_cameras();
+  tree["stamp"] = "source";
+  tree["cameras"]["left"]["stamp"] = "arrival";
+  const auto p = read_trk_to_ros_parameters(tree, "crane1");
+  EXPECT_EQ(p.cameras[0].options.stamp, StampMode::arrival);
+  EXPECT_EQ(p.cameras[1].options.stamp, StampMode::source);
 }
 
 TEST(Read, CamerasInheritFromTheNodeAndMayDiffer) {

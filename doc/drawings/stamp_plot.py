@@ -1,0 +1,56 @@
+"""Arrivals and stamps, from the table that stamp_figures.py measures."""
+
+import csv
+import pathlib
+
+from .svg import GREY, INK, Picture
+
+FOLDER = pathlib.Path(__file__).resolve().parent.parent
+ARRIVAL, STAMP = "#ef6c00", "#1565c0"
+WIDTH, HEIGHT = 390, 190
+
+# Of each case: its title, ticks in s, and the lowest and highest lateness in ms.
+PANELS = [("start", "the first 12 seconds", (0, 2, 4, 6, 8, 10, 12), 20, 50),
+          ("stall", "a stall of 0.3 s at 60 s", (59, 60, 61, 62), 20, 340),
+          ("step", "a path that becomes 5 ms longer at 60 s", (58, 60, 62, 64, 66, 68, 70), 20, 50),
+          ("restart", "a tracker that restarts at 60 s", (58, 60, 62, 64, 66, 68, 70), 20, 50)]
+
+
+def rows_of(case):
+    with (FOLDER / "stamps_plot.csv").open(newline="", encoding="utf-8") as file:
+        return [{key: float(row[key]) for key in ("time", "arrival", "stamp")}
+                for row in csv.DictReader(file) if row["case"] == case]
+
+
+def panel(picture, left, top, case, title, ticks, lowest, highest):
+    def at(x, y):
+        share = (min(max(y, lowest), highest) - lowest) / (highest - lowest)
+        return (left + WIDTH * (x - ticks[0]) / (ticks[-1] - ticks[0]), top + HEIGHT * (1 - share))
+
+    for tick in ticks:
+        x = at(tick, lowest)[0]
+        picture.line([(x, top), (x, top + HEIGHT)], "#dddddd", 0.8)
+        picture.text((x, top + HEIGHT + 16), f"{tick:g}", 11, INK, "middle")
+    for step in range(4):
+        value = lowest + (highest - lowest) * step / 3
+        y = at(ticks[0], value)[1]
+        picture.line([(left, y), (left + WIDTH, y)], "#dddddd", 0.8)
+        picture.text((left - 6, y + 4), f"{value:.0f}", 11, INK, "end")
+    picture.rectangle(left, top, WIDTH, HEIGHT, line_width=1)
+    picture.text((left, top - 10), title, 13, INK)
+    rows = rows_of(case)
+    for row in rows[::1 if len(rows) < 200 else 3]:
+        picture.dot(at(row["time"], row["arrival"]), 1.3, ARRIVAL)
+    picture.line([at(row["time"], row["stamp"]) for row in rows], STAMP, 1.5)
+
+
+def stamps():
+    picture = Picture(940, 560, "Arrivals and stamps by the counter")
+    for i, values in enumerate(PANELS):
+        panel(picture, 60 + 470 * (i % 2), 40 + 250 * (i // 2), *values)
+    picture.dot((60, 541), 2.5, ARRIVAL)
+    picture.text((70, 545), "arrivals (every third where there are many)", 12, ARRIVAL)
+    picture.line([(400, 541), (430, 541)], STAMP, 2)
+    picture.text((438, 545), "stamps", 12, STAMP)
+    picture.text((900, 545), "ms after the sample was taken, over s", 12, GREY, "end")
+    return picture
