@@ -21,7 +21,7 @@ namespace trk_bridge::bridge {
 /// What the last stamp was made of, and why it was not what is wanted.
 enum class StampState : std::uint8_t {
   arrival,
-  learning,    ///< arrival: the counter's rate is not known yet
+  learning,    ///< arrival: the counter's rhythm is not learned yet, or it has none
   no_counter,  ///< arrival: the protocol has none
   uncounted,   ///< arrival: the counter does not count
   counter,

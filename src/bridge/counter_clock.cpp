@@ -14,24 +14,29 @@ constexpr double millisecond = 1e6, second = 1e9;
 
 constexpr double memory = 30 * second;  // of the line
 constexpr double jitter_memory = 120 * second;
-constexpr double recent = 2 * second;
+constexpr double recent = 2 * second;           // of recent_error_, recent_outliers_
 constexpr double closes_gap_in = 1.5 * second;  // time constant
 constexpr double hand_over = 2 * second;        // from arrivals to the line
 constexpr double offset_settles_in = 1 * second;
 constexpr double settles_in = 10 * second;  // after a step; one more to the same side before that is a wrong rate
 constexpr double least_samples = 16;
+constexpr double most_jitter = 0.5;  // of an interval
 constexpr double least_interval = 1e3;
 
 // In standard deviations of the jitter.
 constexpr double edge = 3.3;  // a normal arrival is earlier once in 2000
 constexpr double outlier = 5, least_outlier = 0.2 * millisecond;
-constexpr double visible_step = 0.6, visible_means = 8, recent_clip = 0.6, least_step = 0.05 * millisecond;
+constexpr double visible_step = 0.6, least_step = 0.05 * millisecond;
+/// In standard deviations of the mean of the last seconds.
+constexpr double visible_means = 8;
+/// What an outlier counts for in that mean, as a share of outlier.
+constexpr double recent_clip = 0.6;
 /// Standard over mean absolute deviation of what is normally distributed.
 constexpr double standard = 1.2533;
 
 /// More than this share of outliers is another jitter.
 constexpr double most_outliers = 0.4;
-/// A path does not catch up for longer than this when a stall ends.
+/// Late ones for longer than this are a step: a stall ends in a burst. Early ones are one at once.
 constexpr double longest_run = 0.3 * second;
 constexpr double least_run = 8;  // samples
 
@@ -62,6 +67,7 @@ const StandardRate* standard_rate(double rate) noexcept {
 void CounterClock::forget() noexcept {
   samples_ = 0;
   statistics_.learned = false;
+  statistics_.interval = statistics_.jitter_before = statistics_.jitter_after = 0;
 }
 
 std::int64_t CounterClock::stamp(std::uint64_t counts, std::int64_t arrival) noexcept {
@@ -95,6 +101,7 @@ void CounterClock::follow(double counts, double elapsed) noexcept {
     interval_ = elapsed / counts;
   }
   if (counts == 0 || std::abs(line_ + counts * interval_) > most_early) {
+    if (!statistics_.learned) return begin();
     ++statistics_.restarts;
     counts = std::round(-line_ / interval_);
     line_ += counts * interval_;
@@ -108,6 +115,10 @@ void CounterClock::follow(double counts, double elapsed) noexcept {
   note(error, counts, elapsed, is_outlier);
   if (!is_outlier) correct(error, counts);
   if (has_stepped()) return step();
+  if (standard * deviation_ > most_jitter * interval_) {  // these samples have no rhythm
+    age_ = 0;
+    statistics_.learned = false;
+  }
   if (samples_ >= least_samples && age_ >= learning) {
     statistics_.learned = true;
     statistics_.interval = interval_;
@@ -116,7 +127,6 @@ void CounterClock::follow(double counts, double elapsed) noexcept {
 
 /// Of what was learned the interval may still be right.
 void CounterClock::resume() noexcept {
-  if (!statistics_.learned) return begin();
   move_line(-line_, 1);
   gap_ = 0;
   age_ = 0;

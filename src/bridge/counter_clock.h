@@ -16,20 +16,20 @@ const StandardRate* standard_rate(double rate) noexcept;
 /// What a CounterClock has found out. Trivially copyable. Times in ns.
 struct CounterClockStatistics {
   bool learned = false;            ///< stamps follow the counter; until then they are arrivals
-  double interval = 0;             ///< of a count; 0 before the first learning
+  double interval = 0;             ///< of a count; 0 before it was learned
   double jitter_before = 0;        ///< standard deviation of the arrivals about the line, without outliers
   double jitter_after = 0;         ///< likewise of the stamps: the standard error of the line
   std::uint64_t outliers = 0;      ///< arrivals that the line was not corrected by
   std::uint64_t steps = 0;         ///< of the path's delay
   double last_step = 0;            ///< how far, where steps > 0; positive: it became longer
-  std::uint64_t restarts = 0;      ///< the counter began again or jumped
+  std::uint64_t restarts = 0;      ///< the counter began again or jumped, after it was learned
   std::uint64_t rate_changes = 0;  ///< the rate was learned again
 };
 
 /// Fits arrival(n) = t0 + interval * n + jitter to one sender's samples: an alpha-beta filter with fading memory. A
-/// stamp is on that line, less three standard deviations of the jitter and a bit: at the early edge of the arrivals,
-/// because the constant part of the delay cannot be known from one side. Nothing is configured, the rate is found. Not
-/// synchronised, never allocates.
+/// stamp is on that line, less 3.3 standard deviations of the jitter: at the early edge of the arrivals, because the
+/// constant part of the delay cannot be known from one side. Nothing is configured, the rate is found.
+/// Not synchronised, never allocates.
 class CounterClock {
  public:
   /// The stamp of the next sample, ns on the clock of `arrival`: never after `arrival`, at most `most_early` before it,

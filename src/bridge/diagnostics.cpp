@@ -49,7 +49,7 @@ std::string stamp_text(const CameraStatistics& camera) {
     case StampState::arrival:
       return "arrival";
     case StampState::learning:
-      return "arrival: the counter's rate is being learned";
+      return "arrival: the counter's rhythm is not learned";
     case StampState::no_counter:
       return "arrival: the records have no counter";
     case StampState::uncounted:

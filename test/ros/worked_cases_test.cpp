@@ -19,6 +19,7 @@ class WorkedCases : public TrkToRosTest, public ::testing::WithParamInterface<wi
  protected:
   void SetUp() override {
     set("source", any_udp_port);
+    set("stamp", "arrival");
     set("diagnostic_period", 1.0);
     params.emplace(name_space + "/params");
     infos.emplace(name_space + "/camera_info");

@@ -368,6 +368,21 @@ TEST(CounterClock, AnotherSenderIsLearnedFromTheBegin) {
   EXPECT_EQ(clock.statistics().restarts + clock.statistics().rate_changes, 0u);
 }
 
+TEST(CounterClock, SamplesWithoutARhythmHaveTheirArrivals) {
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<double> pause(1 * millisecond, 500 * millisecond);
+  CounterClock clock;
+  std::int64_t arrival = signal_begin;
+  int arrivals = 0;
+  for (int n = 0; n < 1000; ++n) {
+    arrival += std::llround(pause(engine));
+    const std::int64_t stamp = clock.stamp(1, arrival);
+    EXPECT_LE(stamp, arrival);
+    if (stamp == arrival) ++arrivals;
+  }
+  EXPECT_GT(arrivals, 800);
+}
+
 TEST(CounterClock, AClockThatIsSetIsFollowed) {
   CounterClock clock;
   std::int64_t shift = 0;

@@ -93,7 +93,7 @@ TEST_F(Diagnostics, WhatStampsAreMadeOfAndTheRhythmOfTheCounter) {
   options.stamp = StampMode::counter;
   auto& camera = now.camera;
   camera.stamp_state = StampState::learning;
-  EXPECT_EQ(value("stamps"), "arrival: the counter's rate is being learned");
+  EXPECT_EQ(value("stamps"), "arrival: the counter's rhythm is not learned");
   EXPECT_EQ(value("counter rate (Hz)"), "none yet");
   EXPECT_EQ(value("standard rate (Hz)"), "none");
   camera.stamp_state = StampState::counter;
