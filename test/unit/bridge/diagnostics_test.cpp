@@ -102,7 +102,7 @@ TEST_F(Diagnostics, WhatStampsAreMadeOfAndTheRhythmOfTheCounter) {
   camera.rhythm.jitter_after = 0.06e6;
   expect(Level::ok, "receiving from");
   EXPECT_EQ(value("stamps"), "counter");
-  EXPECT_EQ(value("counter rate (Hz)"), "59.934066");
+  EXPECT_EQ(value("counter rate (Hz)"), "59.934067");
   EXPECT_EQ(value("standard rate (Hz)"), "59.94");
   EXPECT_EQ(value("off standard rate (ppm)"), "-99.99");
   EXPECT_EQ(value("jitter of arrivals (ms)"), "2.100");
