@@ -32,7 +32,7 @@ constexpr double visible_means = 8;
 /// What an outlier counts for in that mean, as a share of outlier.
 constexpr double recent_clip = 0.6;
 /// Standard over mean absolute deviation of what is normally distributed.
-constexpr double standard = 1.2533;
+constexpr double to_sigma = 1.2533;
 
 /// More than this share of outliers is another jitter.
 constexpr double most_outliers = 0.4;
@@ -115,7 +115,7 @@ void CounterClock::follow(double counts, double elapsed) noexcept {
   note(error, counts, elapsed, is_outlier);
   if (!is_outlier) correct(error, counts);
   if (has_stepped()) return step();
-  if (standard * deviation_ > most_jitter * interval_) {  // these samples have no rhythm
+  if (to_sigma * deviation_ > most_jitter * interval_) {  // these samples have no rhythm
     age_ = 0;
     statistics_.learned = false;
   }
@@ -134,7 +134,7 @@ void CounterClock::resume() noexcept {
   statistics_.learned = false;
 }
 
-double CounterClock::gate() const noexcept { return std::max(outlier * standard * deviation_, least_outlier); }
+double CounterClock::gate() const noexcept { return std::max(outlier * to_sigma * deviation_, least_outlier); }
 
 void CounterClock::note(double error, double counts, double elapsed, bool is_outlier) noexcept {
   const double passed = counts * interval_;
@@ -183,7 +183,7 @@ void CounterClock::correct(double error, double counts) noexcept {
   line_ += alpha * error;
   interval_ = std::max(interval_ + beta * error / counts, least_interval);
   if (since_step_ < settles_in && offset_samples_ < samples_) gap_ -= alpha * error;
-  statistics_.jitter_before = standard * deviation_;
+  statistics_.jitter_before = to_sigma * deviation_;
   statistics_.jitter_after = statistics_.jitter_before * std::sqrt(alpha);
 }
 
@@ -193,7 +193,7 @@ bool CounterClock::is_long_run() const noexcept {
 
 bool CounterClock::has_stepped() const noexcept {
   if (is_long_run()) return true;
-  const double sigma = standard * deviation_;
+  const double sigma = to_sigma * deviation_;
   const double sigma_of_mean = sigma * std::sqrt(interval_ / (2 * recent));
   // Jitter that changes the order of samples makes the errors of those in order depend on each other.
   const double of_order = sigma * sigma / interval_;
@@ -234,7 +234,7 @@ void CounterClock::move_line(double by, double samples) noexcept {
 double CounterClock::before_arrival() const noexcept {
   if (!statistics_.learned) return 0;
   const double share = std::min((age_ - learning) / hand_over, 1.0);
-  return std::clamp(share * (edge * standard * deviation_ - line_ - gap_), 0.0, most_early);
+  return std::clamp(share * (edge * to_sigma * deviation_ - line_ - gap_), 0.0, most_early);
 }
 
 }  // namespace trk_bridge::bridge
