@@ -82,7 +82,6 @@ const Wrong wrong_ones[] = {
     {"Rate", [](XmlRpcValue& t) { t["field_rate"] = 0; }, "~field_rate = 0", "must be 1 to 1000 Hz"},
     {"Stamp", [](XmlRpcValue& t) { t["stamp"] = "counted"; }, "~stamp = 'counted'", "arrival or counter or source"},
     {"RateNan", [](XmlRpcValue& t) { t["field_rate"] = std::nan(""); }, "~field_rate = nan", "1 to 1000 Hz"},
-    {"Stamp", [](XmlRpcValue& t) { t["stamp"] = "counter"; }, "~stamp = 'counter'", "no such parameter"},
     {"Queue", [](XmlRpcValue& t) { t["queue_size"] = 0; }, "~queue_size = 0", "must be 1 to 100000"},
     {"Delay", [](XmlRpcValue& t) { t["delay"] = -0.5; }, "~delay = -0.5", "must be 0 to 60 seconds"},
     {"DelayTooLong", [](XmlRpcValue& t) { t["delay"] = 100; }, "~delay = 100", "must be 0 to 60 seconds"},
