@@ -13,7 +13,8 @@ namespace trk_bridge::bridge {
 struct OutgoingSet {
   std::optional<wire::CameraConstants> constants;
   wire::CameraParams params;
-  std::int64_t time = 0;  ///< when they were true, ns since 1970 UTC; 0: unknown
+  std::int64_t time = 0;       ///< when they were true, ns since 1970 UTC; 0: unknown
+  std::int64_t lens_time = 0;  ///< likewise of the lens; 0: as the rest
 };
 
 }  // namespace trk_bridge::bridge

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "file/scheme.h"
 #include "presets.h"
@@ -16,6 +20,7 @@
 namespace trk_bridge::endpoints {
 namespace {
 
+using transport::Delay;
 using transport::Scheme;
 using transport::SinkEndpoint;
 using transport::SinkForm;
@@ -61,6 +66,29 @@ tl::expected<std::uint32_t, std::string> format_from(std::string words) {
   return *format;
 }
 
+/// Seconds, as ns.
+std::optional<std::int64_t> nanoseconds_from(std::string_view seconds, std::int64_t most) {
+  const auto number = transport::real_number(seconds, 0, static_cast<double>(most) / 1e9);
+  if (!number) return std::nullopt;
+  return std::llround(*number * 1e9);
+}
+
+/// One number, or three with commas between.
+std::optional<Delay> delay_from(std::string_view text) {
+  std::vector<std::int64_t> parts;
+  for (bool more = true; more;) {
+    const auto comma = text.find(',');
+    const auto part = nanoseconds_from(text.substr(0, comma), Delay::most);
+    if (!part) return std::nullopt;
+    parts.push_back(*part);
+    more = comma != std::string_view::npos;
+    if (more) text.remove_prefix(comma + 1);
+  }
+  if (parts.size() == 1) return Delay{parts[0], parts[0], parts[0]};
+  if (parts.size() == 3) return Delay{parts[0], parts[1], parts[2]};
+  return std::nullopt;
+}
+
 /// Takes the options of every sink out of the URL.
 tl::expected<SinkForm, std::string> extract_form(Url& url) {
   const auto extract = [&url](std::string_view key) -> std::optional<std::string> {
@@ -72,6 +100,7 @@ tl::expected<SinkForm, std::string> extract_form(Url& url) {
     return value;
   };
   const auto words = extract("format"), preset_name = extract("preset"), id = extract("id");
+  const auto delay = extract("delay"), lead = extract("lead");
   SinkForm form;
   if (words && preset_name) {
     return tl::make_unexpected("option preset = \"" + *preset_name +
@@ -99,6 +128,15 @@ tl::expected<SinkForm, std::string> extract_form(Url& url) {
       return tl::make_unexpected("option id = \"" + *id + "\": the preset " + *preset_name +
                                  " sends no id; only 0 is allowed");
     }
+  }
+  if (delay && !(form.delay = delay_from(*delay))) {
+    return tl::make_unexpected(
+        "option delay = \"" + *delay +
+        "\": allowed are 0 to 1 seconds, or three such numbers with commas between: of position, "
+        "rotation and lens");
+  }
+  if (lead && !(form.lead = nanoseconds_from(*lead, transport::most_lead))) {
+    return tl::make_unexpected("option lead = \"" + *lead + "\": allowed are 0 to 0.04 seconds");
   }
   return form;
 }

@@ -112,6 +112,8 @@ bool assign_layout(const std::string& value, wire::LayoutChoice& to) {
 SinkForm with_defaults(const SinkForm& given, const SinkForm& defaults) noexcept {
   SinkForm form = given.format ? given : defaults;
   form.id = given.id ? given.id : defaults.id;
+  form.delay = given.delay ? given.delay : defaults.delay;
+  form.lead = given.lead ? given.lead : defaults.lead;
   return form;
 }
 

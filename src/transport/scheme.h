@@ -52,7 +52,7 @@ struct Scheme {
 };
 
 /// The options of every sink, whatever its scheme: they are read by the table, not by schemes.
-inline constexpr std::array<std::string_view, 3> form_keys{"format", "preset", "id"};
+inline constexpr std::array<std::string_view, 5> form_keys{"format", "preset", "id", "delay", "lead"};
 
 /// One option of a scheme in one direction. `set` is false when the value is not one of the `allowed`.
 template <typename Settings>

@@ -14,8 +14,9 @@ namespace trk_bridge::endpoints {
 /// Reads a URL to read from. The error names the part, its value and what is allowed; an unknown option's lists the
 /// known ones for that scheme and direction. `%XX` in paths and values stands for a byte (needed for `?`, `&`, `%`).
 tl::expected<transport::SourceEndpoint, std::string> parse_source(std::string_view url);
-/// Reads a URL to write to, likewise. `format=` (words with commas or + between them), `preset=` and `id=` are options
-/// of every scheme. In the path of a recording, %Y and others stand for the time (file/recording_name.h).
+/// Reads a URL to write to, likewise. `format=` (words with commas or + between them), `preset=`, `id=`,
+/// `delay=` and `lead=` (seconds) are options of every scheme. In the path of a recording, %Y and others stand for the
+/// time (file/recording_name.h).
 tl::expected<transport::SinkEndpoint, std::string> parse_sink(std::string_view url);
 
 /// Reads a URL and opens it: a wrong URL is a TransportError, too. `field_rate` as in SourceEndpoint::open.

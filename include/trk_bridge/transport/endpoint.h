@@ -24,12 +24,31 @@ struct SourceEndpoint {
   std::function<std::unique_ptr<Source>(double field_rate)> open;
 };
 
-/// How one sink's records are expressed. What is not given is up to the program: a node's or a tool's own defaults.
+/// What is sent at time t is the camera at t - delay, each part by itself. ns, 0 to `most`.
+struct Delay {
+  std::int64_t position = 0, rotation = 0, lens = 0;
+
+  static constexpr std::int64_t most = 1'000'000'000;
+};
+constexpr bool operator==(const Delay& a, const Delay& b) noexcept {
+  return a.position == b.position && a.rotation == b.rotation && a.lens == b.lens;
+}
+constexpr bool operator!=(const Delay& a, const Delay& b) noexcept { return !(a == b); }
+/// How far, in ns, a camera may be extrapolated beyond its newest sample at most.
+inline constexpr std::int64_t most_lead = 40'000'000;
+
+/// How one sink's records are expressed, and of when they are. What is not given is up to the program: a node's or a
+/// tool's own defaults.
 struct SinkForm {
   /// `format=WORDS` or `preset=NAME`: FormatBit mask that passes wire::is_writable.
   std::optional<std::uint32_t> format;
-  bool sends_id = true;             ///< false with a preset whose receiver takes no id: 0 is sent
-  std::optional<std::uint32_t> id;  ///< `id=N`: sent in place of the record's own
+  bool sends_id = true;              ///< false with a preset whose receiver takes no id: 0 is sent
+  std::optional<std::uint32_t> id;   ///< `id=N`: sent in place of the record's own
+  std::optional<Delay> delay;        ///< `delay=S` or `delay=POSITION,ROTATION,LENS`
+  std::optional<std::int64_t> lead;  ///< `lead=S`: how far it may be extrapolated, ns, 0 to most_lead
+
+  /// Whether the camera is sent of another time than that of its newest sample.
+  bool is_timed() const noexcept { return delay.value_or(Delay{}) != Delay{} || lead.value_or(0) != 0; }
 };
 /// `given`, with what it does not say taken from `defaults`.
 SinkForm with_defaults(const SinkForm& given, const SinkForm& defaults) noexcept;
