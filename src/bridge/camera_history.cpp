@@ -32,8 +32,9 @@ std::optional<CameraHistory::Found> CameraHistory::at(const PartTimes& wanted, s
       camera::interpolate(rotation.before->value.linear().eval(), rotation.after->value.linear().eval(), rotation.part);
   found.camera.lens = camera::interpolate(lens.before->value, lens.after->value, lens.part);
   found.times = {position.time, rotation.time, lens.time};
-  found.margin = newest() - std::max(wanted.position, wanted.rotation);
-  if (!lens_has_own_times_) found.margin = std::min(found.margin, lenses_.newest().time - wanted.lens);
+  // A lens of times of its own may be one that stands: it needs to be no newer than the pose is.
+  const std::int64_t newest_lens = lens_has_own_times_ ? newest() : lenses_.newest().time;
+  found.margins = {newest() - wanted.position, newest() - wanted.rotation, newest_lens - wanted.lens};
   return found;
 }
 

@@ -81,7 +81,7 @@ class SampleRing {
   std::size_t end_ = 0, size_ = 0;
 };
 
-/// When each part of a camera was sampled, ns.
+/// A time of each part of a camera, ns.
 struct PartTimes {
   std::int64_t position = 0, rotation = 0, lens = 0;
 };
@@ -91,8 +91,8 @@ class CameraHistory {
  public:
   struct Found {
     camera::Camera camera;
-    PartTimes times;      ///< what is found is of these
-    std::int64_t margin;  ///< ns, how far the newest samples are ahead of what is asked for; negative: they are behind
+    PartTimes times;    ///< what is found is of these
+    PartTimes margins;  ///< how far the newest samples are ahead of what is asked for; negative: they are behind
   };
 
   bool is_empty() const noexcept { return poses_.is_empty(); }

@@ -18,6 +18,10 @@
 
 namespace trk_bridge::bridge {
 
+inline OutputTiming timing_of(const transport::SinkForm& form) noexcept {
+  return {form.delay.value_or(transport::Delay{}), form.lead.value_or(0)};
+}
+
 /// Where records go.
 struct Destination {
   OutputTiming timing;

@@ -65,6 +65,7 @@ enum class Condition : std::uint8_t {
   sink_loses,
   sink_too_slow,
   queue_drops,
+  delay_too_short,
   // of every node
   ros_time_stands,
   master_silent,

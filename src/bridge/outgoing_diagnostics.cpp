@@ -1,6 +1,7 @@
 #include "outgoing_diagnostics.h"
 
 #include <cmath>
+#include <sstream>
 
 #include "base/time_text.h"
 #include "diagnostic_text.h"
@@ -115,6 +116,44 @@ std::optional<Finding> state(const SinkReport& now, const SinkReport& before) {
   return Finding{Condition::waiting, Level::ok, now.state.is_open ? "open, nothing written yet" : "is being opened"};
 }
 
+/// Between two looks.
+struct Timing {
+  Timing(const DepartureStatistics& now, const DepartureStatistics& before)
+      : departures(now.departures - before.departures),
+        negative(now.negative - before.negative),
+        margin((now.margin_sum - before.margin_sum) / static_cast<double>(departures)),
+        age((now.age_sum - before.age_sum) / 1e6 / static_cast<double>(now.sent - before.sent)) {}
+  std::string margin_text() const { return departures > 0 ? two_decimals(margin) : "unknown"; }
+  std::string age_text() const { return std::isfinite(age) ? two_decimals(age) : "unknown"; }
+
+  std::uint64_t departures, negative;
+  double margin;  // fields, mean
+  double age;     // ms, mean
+};
+
+std::string seconds_of(std::int64_t nanoseconds) {
+  std::ostringstream text;
+  text << seconds_between(0, nanoseconds);
+  return text.str();
+}
+
+std::string delay_text(const transport::Delay& delay) {
+  if (delay == transport::Delay{delay.position, delay.position, delay.position}) return seconds_of(delay.position);
+  return "position " + seconds_of(delay.position) + ", rotation " + seconds_of(delay.rotation) + ", lens " +
+         seconds_of(delay.lens);
+}
+
+void add_timing_findings(std::vector<Finding>& found, const SinkReport& now, const SinkReport& before) {
+  if (!now.departures || !now.form.is_timed() || !now.form.delay || *now.form.delay == transport::Delay{}) return;
+  const Timing timing(*now.departures, before.departures.value_or(DepartureStatistics{}));
+  // Of a lost sample now and then nothing is seen.
+  if (timing.negative * 20 <= timing.departures) return;
+  warn(found, Condition::delay_too_short,
+       std::to_string(timing.negative) + " of " + std::to_string(timing.departures) +
+           " sets were sent older than the delay says, since no newer sample was there: margin " +
+           timing.margin_text() + " fields");
+}
+
 void add_outlet_findings(std::vector<Finding>& found, const SinkReport& now, const SinkReport& before) {
   const auto& sink = now.sink;
   if (!now.state.notice.empty()) found.push_back({Condition::sink_notice, Level::ok, now.state.notice});
@@ -145,8 +184,14 @@ void add_input_values(Status& status, const Sets& sets, double rate, std::int64_
 
 }  // namespace
 
-SinkReport report_of(const Outlet& outlet, std::int64_t time) {
-  return {outlet.state(), outlet.form(), outlet.statistics(), outlet.queue(), time};
+SinkReport report_of(const Outlet& outlet, const std::optional<DepartureStatistics>& departures, std::int64_t time) {
+  return {outlet.state(), outlet.form(), outlet.statistics(), outlet.queue(), departures, time};
+}
+
+std::string timing_text(const DepartureStatistics& now, const DepartureStatistics& before) {
+  const Timing timing(now, before);
+  return "margin " + timing.margin_text() + " fields, negative " + std::to_string(timing.negative) + " times of " +
+         std::to_string(timing.departures) + ", age " + timing.age_text() + " ms";
 }
 
 std::vector<Finding> findings(const ParamsReport& now, const ParamsReport& before) {
@@ -172,6 +217,7 @@ std::vector<Finding> findings(const SinkReport& now, const SinkReport& before) {
   std::vector<Finding> found;
   if (const auto first = state(now, before)) found.push_back(*first);
   add_outlet_findings(found, now, before);
+  add_timing_findings(found, now, before);
   return found;
 }
 
@@ -231,6 +277,15 @@ void fill(Status& status, const std::vector<Finding>& found, const SinkReport& n
   status.add("failed sets", sink.failed_sets);
   status.add("last error", ever_failed ? describe(sink.last_fault) : std::string("none"));
   status.add("age of last error (s)", age_text(ever_failed, sink.last_failure, now.time));
+  if (now.departures) {
+    const Timing timing(*now.departures, before.departures.value_or(DepartureStatistics{}));
+    status.add("delay (s)", delay_text(now.form.delay.value_or(transport::Delay{})));
+    status.add("lead (s)", seconds_of(now.form.lead.value_or(0)));
+    status.add("margin (fields)", timing.margin_text());
+    status.add("negative margins", now.departures->negative);
+    status.add("age of what is sent (ms)", timing.age_text());
+    status.add("duplicate or late samples left out", now.departures->left_out);
+  }
   if (!now.queue) return;
   status.add("queued", now.queue->queued);
   status.add("queue drops", now.queue->drops);

@@ -219,6 +219,10 @@ void Outlet::pass(const Record& record, Time... time) {
 
 void Outlet::write(const wire::CameraConstants& constants) { pass(constants); }
 void Outlet::write(const wire::CameraParams& params, std::int64_t time) { pass(params, time); }
+void Outlet::write(const wire::Record& record, std::int64_t time) {
+  if (const auto* params = std::get_if<wire::CameraParams>(&record)) return write(*params, time);
+  write(std::get<wire::CameraConstants>(record));
+}
 
 void Outlet::finish() {
   if (!thread_.joinable()) return;

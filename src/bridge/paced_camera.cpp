@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+
+#include "trk_bridge/wire/fields.h"
 
 namespace trk_bridge::bridge {
 namespace {
@@ -16,6 +19,16 @@ PartTimes times_at(std::int64_t clock, const transport::Delay& delay) noexcept {
 PartTimes not_before(const PartTimes& times, const PartTimes& others) noexcept {
   return {std::max(times.position, others.position), std::max(times.rotation, others.rotation),
           std::max(times.lens, others.lens)};
+}
+
+/// Of the parts that have a delay, where one has: the others are wanted as new as they are.
+std::int64_t least_margin(const PartTimes& margins, const transport::Delay& delay) noexcept {
+  const bool all = delay == transport::Delay{};
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  if (all || delay.position > 0) least = std::min(least, margins.position);
+  if (all || delay.rotation > 0) least = std::min(least, margins.rotation);
+  if (all || delay.lens > 0) least = std::min(least, margins.lens);
+  return least;
 }
 
 bool is_same(const PartTimes& a, const PartTimes& b) noexcept {
@@ -52,6 +65,11 @@ camera::Result<void> PacedCamera::add(const wire::CameraParams& params, std::int
   if (history_.is_empty()) {
     for (auto& output : outputs_) output.last.reset();
   }
+  if (const auto order = order_.judge(params.counter, wire::fingerprint(params));
+      !base::is_new(order) && !history_.is_empty() && time > history_.newest()) {
+    ++left_out_;
+    return {};
+  }
   if (!first_counter_) first_counter_ = params.counter;
   newest_ = params;
   history_.add(*camera, time, lens_time);
@@ -69,8 +87,9 @@ void PacedCamera::depart(std::int64_t now, std::int64_t clock) noexcept {
     if (!found) continue;
     auto& statistics = output.statistics;
     ++statistics.departures;
-    if (found->margin < 0) ++statistics.negative;
-    statistics.margin_sum += static_cast<double>(found->margin) / rhythm_.sample_period();
+    const auto margin = least_margin(found->margins, output.timing.delay);
+    if (margin < 0) ++statistics.negative;
+    statistics.margin_sum += static_cast<double>(margin) / rhythm_.sample_period();
   }
 }
 
@@ -78,6 +97,12 @@ bool PacedCamera::waits(std::int64_t now) const noexcept {
   // What comes later is left to the next departure, which is just behind it: else it would be early for good.
   const bool is_late = static_cast<double>(now - departure_) > 0.7 * rhythm_.period();
   return !is_late && std::any_of(outputs_.begin(), outputs_.end(), [](const Output& output) { return output.is_due; });
+}
+
+DepartureStatistics PacedCamera::statistics(std::size_t output) const noexcept {
+  auto statistics = outputs_[output].statistics;
+  statistics.left_out = left_out_;
+  return statistics;
 }
 
 std::optional<PacedCamera::Departure> PacedCamera::take(std::size_t index, std::int64_t now,

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "camera_history.h"
 #include "phase_lock.h"
+#include "trk_bridge/base/sequence.h"
 #include "trk_bridge/wire/record.h"
 
 namespace trk_bridge::bridge {
@@ -27,6 +27,7 @@ struct DepartureStatistics {
   std::uint64_t departures = 0;  ///< that were due while samples came
   std::uint64_t negative = 0;    ///< of them, those whose samples were not there yet: the newest were not new enough
   double margin_sum = 0;         ///< fields, over departures: how far the newest samples are ahead of what is sent
+  std::uint64_t left_out = 0;    ///< samples: duplicates and late ones whose times say that they are new
 };
 
 /// Nothing here knows a clock: `now` is the steady clock, `clock` the one that samples' times are of, both in ns. Where
@@ -44,7 +45,8 @@ class PacedCamera {
   PacedCamera(std::optional<double> rate, const std::vector<OutputTiming>& outputs);
 
   /// Takes a sample. `time` is when it was true, 0: now; `lens_time` likewise for its lens, 0: the same. What was
-  /// before is forgotten when times jump by more than 1 s, and when the format is another one. The error is why a
+  /// before is forgotten when times jump by more than 1 s, and when the format is another one. A duplicate, or a late
+  /// one by its counter, is left out where its time (an arrival) says that it is new. The error is why a
   /// record cannot be interpolated: nothing is changed by it but the rhythm.
   camera::Result<void> add(const wire::CameraParams&, std::int64_t time, std::int64_t lens_time, std::int64_t now,
                            std::int64_t clock) noexcept;
@@ -62,7 +64,7 @@ class PacedCamera {
   /// with each, from that of the first sample.
   std::optional<Departure> take(std::size_t output, std::int64_t now, std::int64_t clock) noexcept;
 
-  const DepartureStatistics& statistics(std::size_t output) const noexcept { return outputs_[output].statistics; }
+  DepartureStatistics statistics(std::size_t output) const noexcept;
   const PhaseLock& rhythm() const noexcept { return rhythm_; }
 
  private:
@@ -75,6 +77,7 @@ class PacedCamera {
   };
 
   PhaseLock rhythm_;
+  base::Sequence order_{50, base::CounterUse::automatic};
   CameraHistory history_;
   wire::CameraParams newest_;  // the one that came last
   std::vector<Output> outputs_;
@@ -82,6 +85,7 @@ class PacedCamera {
   std::int64_t departure_ = 0, arrival_ = 0;  // steady clock, the last ones
   std::int64_t offset_ = 0;                   // from the samples' times to the clock
   std::optional<std::uint64_t> first_counter_;
+  std::uint64_t left_out_ = 0;
 };
 
 }  // namespace trk_bridge::bridge

@@ -19,7 +19,7 @@ OutgoingSet ParamsToTrk::use(const wire::CameraParams& params, std::int64_t now)
   ++statistics_.received;
   statistics_.last_received = now;
   statistics_.last_format = params.format;
-  OutgoingSet set{std::nullopt, params, 0};
+  OutgoingSet set{std::nullopt, params, 0, 0};
   if (!newest_) return set;
   newest_->id = params.id;
   if (given_.use(*newest_) == camera::ConstantsChange::changed) set.constants = newest_;

@@ -96,7 +96,7 @@ std::optional<OutgoingSet> TfToTrk::make(const Eigen::Isometry3d& studio_T_frame
     statistics_.drop_reason = params.error();
     return std::nullopt;
   }
-  OutgoingSet set{std::nullopt, *params, stamp};
+  OutgoingSet set{std::nullopt, *params, stamp, at.stamp};
   set.params.counter = ++counter_;
   chip_.image_width = at.width;
   chip_.image_height = at.height;

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <ros/node_handle.h>
 
+#include "bridge/departures.h"
 #include "node_diagnostics.h"
+#include "sent_topic.h"
 #include "sink_output.h"
 #include "trk_input.h"
 
@@ -22,6 +25,8 @@ class RosToTrk {
 
  private:
   SinkOutputs sinks_;
+  std::optional<SentTopic> sent_;
+  std::optional<bridge::Departures> departures_;
   std::unique_ptr<TrkInput> input_;
   NodeDiagnostics diagnostics_;
 };

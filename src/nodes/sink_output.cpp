@@ -39,19 +39,12 @@ SinkOutput::~SinkOutput() {
   }
 }
 
-void SinkOutput::write(const bridge::OutgoingSet& set) {
-  if (set.constants) outlet_.write(*set.constants);
-  outlet_.write(set.params, set.time);
+bridge::Status SinkOutput::describe(const std::optional<bridge::DepartureStatistics>& departures) {
+  return reporter_.status(bridge::report_of(outlet_, departures, base::steady_now()));
 }
-
-bridge::Status SinkOutput::describe() { return reporter_.status(bridge::report_of(outlet_, base::steady_now())); }
 
 SinkOutputs::~SinkOutputs() {
   for (const auto& sink : sinks_) sink->finish();
-}
-
-void SinkOutputs::write(const bridge::OutgoingSet& set) {
-  for (const auto& sink : sinks_) sink->write(set);
 }
 
 }  // namespace trk_bridge::nodes

@@ -1,12 +1,13 @@
 // One sink of ros_to_trk: written to, watched, reported.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bridge/outgoing_diagnostics.h"
-#include "bridge/outgoing_set.h"
 #include "bridge/outlet.h"
 #include "status_reporter.h"
 
@@ -23,14 +24,17 @@ class SinkOutput {
   SinkOutput(const SinkOutput&) = delete;
   SinkOutput& operator=(const SinkOutput&) = delete;
 
-  void write(const bridge::OutgoingSet&);
+  void write(const wire::Record& record, std::int64_t time) { outlet_.write(record, time); }
   /// Nothing is written any more; does not wait.
   void finish() { outlet_.finish(); }
 
   /// Findings of a kind that was not met before go to the log, too.
-  bridge::Status describe();
+  /// `departures` are its own.
+  bridge::Status describe(const std::optional<bridge::DepartureStatistics>& departures);
 
   const std::string& url() const noexcept { return outlet_.url(); }
+  /// With the defaults filled in.
+  const transport::SinkForm& form() const noexcept { return outlet_.form(); }
 
  private:
   bridge::Outlet outlet_;
@@ -48,7 +52,6 @@ class SinkOutputs {
   void add(const transport::SinkEndpoint& endpoint, const transport::SinkForm& form) {
     sinks_.push_back(std::make_unique<SinkOutput>(endpoint, form));
   }
-  void write(const bridge::OutgoingSet&);
   const std::vector<std::unique_ptr<SinkOutput>>& all() const noexcept { return sinks_; }
 
  private:

@@ -1,5 +1,8 @@
 #include "tf_input.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <tf2/exceptions.h>
 
 #include "base/clock.h"
@@ -10,19 +13,20 @@
 namespace trk_bridge::nodes {
 namespace {
 
-/// How often a tick looks again for a pose that is late.
-constexpr int late_looks = 20;
+/// Hz, at which it looks for what does not come by itself.
+constexpr double default_rate = 50;
 
 }  // namespace
 
-TfInput::TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& parameters, SetWriter write)
+TfInput::TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& parameters, SetWriter write,
+                 const SentTopic& sent)
     : write_(std::move(write)),
       parameters_(parameters),
-      period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / parameters.rate))),
+      sent_(sent),
+      period_(std::llround(1e9 / parameters.rate.value_or(default_rate))),
       gate_(parameters.studio_frame, parameters.camera_frame),
       sets_(parameters.tf),
       reporter_(parameters.name),
-      sent_form_(parameters.form.format),
       tf_thread_(1, &tf_queue_) {
   const auto queue = static_cast<std::uint32_t>(parameters.queue_size);
   using TfEvent = ::ros::MessageEvent<const tf2_msgs::TFMessage>;
@@ -44,7 +48,6 @@ TfInput::TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& paramet
         sets_.use_lens(message->focdist, message->aperture);
       },
       ::ros::VoidConstPtr(), no_delay());
-  sent_ = node.advertise<trk_bridge::CameraParams>("sent", queue);
   tf_thread_.start();
   thread_ = std::thread([this] { run(); });
 }
@@ -62,15 +65,19 @@ TfInput::~TfInput() {
 void TfInput::receive(const ::ros::MessageEvent<const tf2_msgs::TFMessage>& event, bool is_static) {
   const std::string& sender = event.getPublisherName();
   const auto ros_now = ros1::from_time(::ros::Time::now());
-  const std::lock_guard<std::mutex> lock(mutex_);
-  for (const auto& transform : event.getConstMessage()->transforms) {
-    if (is_static) {
-      gate_.add_static(transform.header.frame_id, transform.child_frame_id);
-    } else if (!passes(transform, sender, ros_now)) {
-      continue;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& transform : event.getConstMessage()->transforms) {
+      if (is_static) {
+        gate_.add_static(transform.header.frame_id, transform.child_frame_id);
+      } else if (!passes(transform, sender, ros_now)) {
+        continue;
+      }
+      transforms_.setTransform(transform, sender, is_static);
     }
-    transforms_.setTransform(transform, sender, is_static);
+    came_ = true;
   }
+  changed_.notify_all();
 }
 
 bool TfInput::passes(const geometry_msgs::TransformStamped& transform, const std::string& sender,
@@ -97,24 +104,12 @@ void TfInput::receive(const sensor_msgs::CameraInfo& message) {
   changed_.notify_all();
 }
 
-bool TfInput::wait_until(Clock::time_point time) {
-  std::unique_lock<std::mutex> lock(mutex_);
-  return !changed_.wait_until(lock, time, [this] { return stopping_; });
-}
-
 void TfInput::run() {
-  auto deadline = Clock::now();
-  while (wait_until(deadline)) {
-    deadline += period_;
-    // A pose that comes a little late is this tick's. Left for the next one, it would cost one of two where tf comes at
-    // our own rate.
-    for (auto again = Clock::now(); !look();) {
-      again += period_ / late_looks;
-      if (again >= deadline) break;
-      if (!wait_until(again)) return;
-    }
-    // Looks that were missed are left out: two at once would find the same pose.
-    if (const auto now = Clock::now(); deadline < now) deadline += (now - deadline) / period_ * period_ + period_;
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!stopping_) {
+    changed_.wait_for(lock, period_, [this] { return stopping_ || came_; });
+    came_ = false;
+    if (!stopping_) look(lock);
   }
 }
 
@@ -126,41 +121,33 @@ TfInput::Pose TfInput::newest_pose() const {
   }
 }
 
-bool TfInput::look() {
-  const auto ros_now = ros1::from_time(::ros::Time::now());
-  Pose pose;
-  std::optional<bridge::OutgoingSet> set;
-  {
-    std::unique_lock<std::mutex> lock(mutex_);
-    pose = newest_pose();
-    pose_fault_ = pose ? std::string() : pose.error();
-    if (!pose) return true;
-    const auto stamp = ros1::from_time(pose->header.stamp);
-    last_pose_ = stamp;
-    if (!sets_.is_new(stamp)) return false;
-    ahead_ = stamp == 0 || ros_now == 0 ? 0 : stamp - ros_now;
-    const auto restarts = gate_.statistics().restarts;
-    // tf and camera_info of one moment come on connections of their own.
-    changed_.wait_for(lock, period_ / 4, [&] { return stopping_ || !sets_.expects_lens(stamp); });
-    if (stopping_ || restarts != gate_.statistics().restarts) return true;
-    set = sets_.make(ros1::to_isometry(pose->transform), stamp, base::steady_now());
-  }
-  if (!set) return true;
-  write_(*set);
-  publish(*set, pose->header);
+bool TfInput::is_due(bool is_static, std::int64_t now) {
+  // A static pose is there all the time, and a timer of its own decides what is sent of the others.
+  if (!is_static && (parameters_.pace || !parameters_.rate)) return true;
+  // One that comes a little early costs none where tf comes at the rate.
+  if (now < due_ - period_.count() / 4) return false;
+  due_ = std::max(due_, now) + period_.count();
   return true;
 }
 
-void TfInput::publish(const bridge::OutgoingSet& set, const std_msgs::Header& header) {
-  // Constants that leave no picture are not given by the input.
-  if (set.constants) static_cast<void>(sent_form_.use(*set.constants));
-  auto converted = sent_form_.convert(set.params).params;
-  // Sinks without a form of their own report why.
-  if (!converted) return;
-  converted->id = bridge::sent_id(parameters_.form, set.params.id);
-  ros1::to_msg(*converted, sent_message_);
-  sent_message_.header = header;
-  sent_.publish(sent_message_);
+void TfInput::look(std::unique_lock<std::mutex>& lock) {
+  const auto ros_now = ros1::from_time(::ros::Time::now());
+  const auto pose = newest_pose();
+  pose_fault_ = pose ? std::string() : pose.error();
+  if (!pose) return;
+  const auto stamp = ros1::from_time(pose->header.stamp);
+  last_pose_ = stamp;
+  if (!sets_.is_new(stamp) || !is_due(stamp == 0, base::steady_now())) return;
+  ahead_ = stamp == 0 || ros_now == 0 ? 0 : stamp - ros_now;
+  const auto restarts = gate_.statistics().restarts;
+  // tf and camera_info of one moment come on connections of their own.
+  changed_.wait_for(lock, period_ / 4, [&] { return stopping_ || !sets_.expects_lens(stamp); });
+  if (stopping_ || restarts != gate_.statistics().restarts) return;
+  const auto set = sets_.make(ros1::to_isometry(pose->transform), stamp, base::steady_now());
+  if (!set) return;
+  lock.unlock();
+  write_(*set);
+  lock.lock();
 }
 
 bridge::Status TfInput::describe() {
@@ -168,6 +155,11 @@ bridge::Status TfInput::describe() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     report.tf = sets_.statistics();
+    // Of sets, those that have left count, whatever the input has given.
+    const auto sent = sent_.statistics();
+    report.tf.sets = sent.sets;
+    report.tf.last_set = sent.last;
+    report.tf.last_stamp = sent.last_stamp;
     report.pose_fault = pose_fault_;
     report.gate = gate_.statistics();
     report.last_pose = last_pose_;
@@ -175,7 +167,7 @@ bridge::Status TfInput::describe() {
   }
   report.info_topic = camera_info_.getTopic();
   report.time = base::steady_now();
-  return reporter_.status(std::move(report), parameters_.rate);
+  return reporter_.status(std::move(report), parameters_.rate.value_or(default_rate));
 }
 
 }  // namespace trk_bridge::nodes

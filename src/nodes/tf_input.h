@@ -21,49 +21,49 @@
 #include "bridge/outgoing_diagnostics.h"
 #include "bridge/transform_gate.h"
 #include "ros/ros_to_trk_parameters.h"
+#include "sent_topic.h"
 #include "status_reporter.h"
-#include "trk_bridge/camera/converter.h"
 #include "trk_input.h"
 
 namespace trk_bridge::nodes {
 
-/// A thread of its own looks at tf at the rate of the parameters, by the steady clock and without drift, and writes a
-/// set when there is a newer pose; one that is late is written as soon as it is there.
+/// A thread of its own gives every pose of tf that is newer, as it comes, with its lens; without pace not more than the
+/// rate says. A static pose it gives at the rate. When they go out is the matter of Departures.
 /// tf is received by another thread, through a gate: stamps that are wrong, and clocks that are set, cost less than 1
-/// s. The set is published on the topic `sent` as well, in the node's own form and stamped with the time of its pose:
-/// trk has no times, so that only the counter tells a receiver's pose from the next.
+/// s.
 class TfInput : public TrkInput {
  public:
   /// Subscribes in the namespace of `node`.
-  TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters&, SetWriter);
+  TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters&, SetWriter, const SentTopic&);
   ~TfInput() override;
 
   bridge::Status describe() override;
 
  private:
-  using Clock = std::chrono::steady_clock;
   using Pose = tl::expected<geometry_msgs::TransformStamped, std::string>;
 
   void run();
-  /// False when the input is to end before.
-  bool wait_until(Clock::time_point);
-  /// Writes a set when there is a newer pose. False when there is a pose, but the newest is known already.
-  bool look();
+  /// Gives the newest pose, where it is new.
+  void look(std::unique_lock<std::mutex>&);
+  /// Whether a pose may be given now, without exceeding the rate. `now` is the steady clock, ns.
+  bool is_due(bool is_static, std::int64_t now);
   Pose newest_pose() const;
   void receive(const ::ros::MessageEvent<const tf2_msgs::TFMessage>&, bool is_static);
   /// Whether the transform may go into `transforms_`, which is emptied before where a clock was set. `ros_now` in ns.
   bool passes(const geometry_msgs::TransformStamped&, const std::string& sender, std::int64_t ros_now);
   void start_over();
   void receive(const sensor_msgs::CameraInfo&);
-  void publish(const bridge::OutgoingSet&, const std_msgs::Header&);
 
   SetWriter write_;
   const ros1::RosToTrkParameters parameters_;
-  const Clock::duration period_;
+  const SentTopic& sent_;
+  const std::chrono::nanoseconds period_;
 
   mutable std::mutex mutex_;  // of all between here and the next comment
   std::condition_variable changed_;
   bool stopping_ = false;
+  bool came_ = false;     // tf
+  std::int64_t due_ = 0;  // steady clock, ns
   tf2::BufferCore transforms_;
   bridge::TransformGate gate_;
   bridge::TfToTrk sets_;
@@ -72,14 +72,9 @@ class TfInput : public TrkInput {
 
   StatusReporter<bridge::TfReport> reporter_;  // of the diagnostics
 
-  // of the thread
-  camera::Converter sent_form_;
-  trk_bridge::CameraParams sent_message_;
-
   std::thread thread_;
   ::ros::CallbackQueue tf_queue_;
   ::ros::Subscriber tf_, static_tf_, camera_info_, lens_;
-  ::ros::Publisher sent_;
   ::ros::AsyncSpinner tf_thread_;
 };
 

@@ -288,6 +288,16 @@ std::optional<ParameterReader> ParameterReader::map(const std::string& key) {
   return ParameterReader(*value, path_ + key + "/", faults_);
 }
 
+bool ParameterReader::is_map(const std::string& key) {
+  const auto* value = find(key);
+  return value != nullptr && value->getType() == XmlRpcValue::TypeStruct;
+}
+
+bool ParameterReader::is_text(const std::string& key) {
+  const auto* value = find(key);
+  return value != nullptr && value->getType() == XmlRpcValue::TypeString;
+}
+
 void ParameterReader::refuse_unknown() {
   std::sort(known_.begin(), known_.end());
   for (const auto& key : keys()) {

@@ -99,6 +99,9 @@ class ParameterReader {
   void diagnostic_period();
   /// A map, for a reader of its own; its faults are shown with this one's.
   std::optional<ParameterReader> map(const std::string& key);
+  /// Whether `key` is given as a map, or as a text, where it may be something else as well.
+  bool is_map(const std::string& key);
+  bool is_text(const std::string& key);
 
   /// Makes `key` known without reading it.
   void know(const std::string& key);

@@ -1,5 +1,6 @@
 #include "ros_to_trk_parameters.h"
 
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -38,9 +39,47 @@ void read_form(ParameterReader& node, transport::SinkForm& form) {
   form.sends_id = preset->sends_id;
 }
 
+std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+
+void read_delay(ParameterReader& node, transport::SinkForm& form) {
+  const Range range{0, static_cast<double>(transport::Delay::most) / 1e9, "seconds"};
+  double all = 0, lead = 0;
+  if (node.is_map("delay")) {
+    double position = 0, rotation = 0, lens = 0;
+    auto parts = *node.map("delay");
+    for (auto [key, into] : {std::pair{"position", &position}, {"rotation", &rotation}, {"lens", &lens}}) {
+      if (!parts.has(key)) parts.fault(key, "(none)", "must be given: a delay is of position, rotation and lens");
+      parts.number(key, *into, range);
+    }
+    parts.refuse_unknown();
+    form.delay = transport::Delay{nanoseconds(position), nanoseconds(rotation), nanoseconds(lens)};
+  } else if (node.number("delay", all, range)) {
+    form.delay = transport::Delay{nanoseconds(all), nanoseconds(all), nanoseconds(all)};
+  }
+  if (node.number("lead", lead, {0, static_cast<double>(transport::most_lead) / 1e9, "seconds"})) {
+    form.lead = nanoseconds(lead);
+  }
+}
+
+void read_pace(ParameterReader& node, RosToTrkParameters& parameters) {
+  const bool is_tf = parameters.input == OutgoingInput::tf;
+  double rate = 50;
+  if (node.is_text("rate")) {
+    const std::string allowed = "must be 1 to 1000 Hz" + std::string(is_tf ? ", or tf" : "");
+    bool is_that_of_tf = false;
+    node.parsed("rate", is_that_of_tf, [&](const std::string& word) -> tl::expected<bool, std::string> {
+      if (is_tf && word == "tf") return true;
+      return tl::make_unexpected(allowed);
+    });
+  } else if (node.number("rate", rate, {1, 1000, "Hz"}) || is_tf) {
+    parameters.rate = rate;
+  }
+  parameters.pace = is_tf && parameters.rate;
+  node.flag("pace", parameters.pace);
+}
+
 void read_tf_input(ParameterReader& node, RosToTrkParameters& parameters) {
   auto& tf = parameters.tf;
-  node.number("rate", parameters.rate, {1, 1000, "Hz"});
   node.number("chip_width", tf.chip.chip_width, more_than(0, "mm"));
   node.number("chip_height", tf.chip.chip_height, more_than(0, "mm"));
   node.integer("blank_left", tf.chip.blank_left, at_least(0, "pixels"));
@@ -88,6 +127,8 @@ RosToTrkParameters read_ros_to_trk_parameters(const XmlRpc::XmlRpcValue& tree, c
   read_sinks(node, parameters.sinks);
   node.choice("input", parameters.input, {{"params", OutgoingInput::params}, {"tf", OutgoingInput::tf}});
   read_form(node, parameters.form);
+  read_delay(node, parameters.form);
+  read_pace(node, parameters);
   node.integer("queue_size", parameters.queue_size, {1, 100000});
   node.constants("constants", parameters.constants);
   read_tf_input(node, parameters);

@@ -22,15 +22,19 @@ struct RosToTrkParameters {
   std::string name;                            ///< the camera's: names its diagnostics
   std::vector<transport::SinkEndpoint> sinks;  ///< at least one; each is written
   OutgoingInput input = OutgoingInput::params;
-  /// What `format` or `preset`, and `id` say: for sinks that do not say it themselves. Always has a format.
-  transport::SinkForm form{wire::euler, true, std::nullopt};
+  /// What `format` or `preset`, `id`, `delay` and `lead` say: for sinks that do not say it themselves. Always has a
+  /// format.
+  transport::SinkForm form{wire::euler, true, std::nullopt, std::nullopt, std::nullopt};
+  /// Hz: at most that of tf on arrival, else that of departures. None: that of what comes.
+  std::optional<double> rate;
+  /// Whether a timer sends, at an even rhythm. Default: for tf with a rate.
+  bool pace = false;
   int queue_size = 100;  ///< messages that wait for the node
 
   // input: params
   std::optional<wire::CameraConstants> constants;  ///< until some are received
 
   // input: tf
-  double rate = 50;  ///< Hz
   std::string studio_frame = "studio";
   std::string camera_frame;   ///< default: the camera's name
   bridge::TfToTrkOptions tf;  ///< the chip's width and height are required

@@ -1,8 +1,11 @@
 #include "fan_out.h"
 
 #include <ostream>
+#include <utility>
 #include <variant>
 
+#include "base/clock.h"
+#include "bridge/outgoing_diagnostics.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::tools {
@@ -47,16 +50,32 @@ void FanOut::add(const transport::SinkEndpoint& endpoint, const transport::SinkF
   options.may_wait = may_wait_;
   options.must_open = true;
   options.listener = [this, sink = outlets_.size()](const bridge::Loss& loss) { count(sink, loss); };
+  if (may_wait_ && transport::with_defaults(endpoint.form, defaults).is_timed()) {
+    throw transport::TransportError(
+        "endpoint \"" + endpoint.url +
+        "\": a take that is read as fast as possible cannot be delayed: delay and lead need "
+        "a source with a pace of its own");
+  }
   outlets_.push_back(std::make_unique<bridge::Outlet>(endpoint, options));
 }
 
-void FanOut::write(const wire::CameraParams& params, std::int64_t time) {
-  for (const auto& outlet : outlets_) outlet->write(params, time);
+bridge::Departures& FanOut::departures() {
+  if (departures_) return *departures_;
+  std::vector<bridge::Destination> destinations;
+  for (std::size_t sink = 0; sink < outlets_.size(); ++sink) {
+    auto& outlet = *outlets_[sink];
+    destinations.push_back({bridge::timing_of(outlet.form()), false,
+                            [&outlet](const auto& record, std::int64_t time) { outlet.write(record, time); },
+                            [this, sink](const bridge::Loss& loss) { count(sink, loss); }});
+  }
+  bridge::DepartureOptions options;
+  options.clock = base::wall_now;
+  return departures_.emplace(std::move(options), std::move(destinations));
 }
 
-void FanOut::write(const wire::CameraConstants& constants) {
-  for (const auto& outlet : outlets_) outlet->write(constants);
-}
+void FanOut::write(const wire::CameraParams& params, std::int64_t time) { departures().write(params, time); }
+
+void FanOut::write(const wire::CameraConstants& constants) { departures().write(constants); }
 
 void FanOut::count(std::size_t sink, const bridge::Loss& loss) {
   const auto& outlet = *outlets_[sink];
@@ -72,6 +91,7 @@ void FanOut::report(const std::string& line) {
 }
 
 void FanOut::close() {
+  if (departures_) departures_->finish();
   for (const auto& outlet : outlets_) outlet->finish();
   for (const auto& outlet : outlets_) {
     const auto closed = outlet->close();
@@ -91,6 +111,11 @@ void FanOut::summarise() const {
     const auto sent = outlet->statistics().sent;
     err_ << "trk: sent to " << outlet->name() << ": " << sent.params << " parameters, " << sent.constants
          << " constants, " << sent.errors << " errors\n";
+  }
+  for (std::size_t sink = 0; departures_ && sink < outlets_.size(); ++sink) {
+    const auto timed = departures_->statistics(sink);
+    if (!timed) continue;
+    err_ << "trk: " << outlets_[sink]->name() << ": " << bridge::timing_text(*timed) << '\n';
   }
   for (const auto& [cause, times] : causes_) {
     const auto& [sink, reason] = cause;

@@ -7,10 +7,12 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bridge/departures.h"
 #include "bridge/outlet.h"
 
 namespace trk_bridge::tools {
@@ -22,13 +24,14 @@ class FanOut {
   /// `may_wait`: see OutletOptions.
   explicit FanOut(std::ostream& err, std::function<bool()> may_wait = {}) : err_(err), may_wait_(std::move(may_wait)) {}
 
-  /// Opens one more. `defaults` count for what the endpoint does not say. Throws TransportError.
+  /// Opens one more. `defaults` count for what the endpoint does not say. Throws TransportError; a sink with a delay or
+  /// a lead needs a source that is live, and is refused where it may wait.
   void add(const transport::SinkEndpoint&, const transport::SinkForm& defaults);
 
-  /// `time` as in Sink::write.
+  /// `time` as in Sink::write. Sinks are added before.
   void write(const wire::CameraParams&, std::int64_t time = 0);
   void write(const wire::CameraConstants&);
-  /// Writes what is queued and closes all, at the same time.
+  /// Writes what is queued or delayed and closes all, at the same time.
   void close();
 
   /// A line on `err`, whole whatever other threads report. Any thread.
@@ -48,6 +51,7 @@ class FanOut {
   using Cause = std::pair<std::size_t, bridge::Loss::Cause>;  // which sink, and why
 
   void count(std::size_t sink, const bridge::Loss&);
+  bridge::Departures& departures();
 
   std::ostream& err_;
   const std::function<bool()> may_wait_;
@@ -55,6 +59,7 @@ class FanOut {
   std::map<Cause, std::uint64_t> causes_;
   bool is_good_ = true;
   std::vector<std::unique_ptr<bridge::Outlet>> outlets_;
+  std::optional<bridge::Departures> departures_;  // once something is written
 };
 
 }  // namespace trk_bridge::tools

@@ -9,6 +9,7 @@
 #include "bridge/camera_pipeline.h"
 #include "bridge/outlet_queue.h"
 #include "bridge/outlet_writer.h"
+#include "bridge/paced_camera.h"
 #include "bridge/params_to_trk.h"
 #include "bridge/tf_to_trk.h"
 
@@ -183,6 +184,28 @@ TEST(Allocation, DoesNotHappenInAQueueThatIsFull) {
             }),
             0U);
   EXPECT_GT(queue.statistics().queued, OutletWriter::most_ids);
+}
+
+TEST(Allocation, DoesNotHappenForSetsThatAreDelayed) {
+  const OutputTiming third_of_a_field{{6'000'000, 7'000'000, 8'000'000}, 40'000'000};
+  PacedCamera camera(50, {third_of_a_field, third_of_a_field});
+  wire::CameraParams params;
+  params.format = wire::euler | wire::field_of_view;
+  params.fov = 40;
+  int sent = 0;
+  const std::uint64_t count = allocations_of([&] {
+    for (int i = 0; i < 1000; ++i) {
+      const std::int64_t now = 1'700'000'000'000'000'000 + std::int64_t{i} * 20'000'000;
+      params.counter = static_cast<std::uint64_t>(i);
+      params.euler.pan = i % 7 == 6 ? std::numeric_limits<double>::infinity() : i;
+      (void)camera.add(params, now - i % 3 * 15'000'000, 0, now, now);
+      if (!camera.due()) continue;
+      camera.depart(*camera.due(), *camera.due());
+      for (const std::size_t output : {0, 1}) sent += camera.take(output, now + 100'000, now + 100'000) ? 1 : 0;
+    }
+  });
+  EXPECT_GT(sent, 1000);
+  EXPECT_EQ(count, 0U);
 }
 
 }  // namespace

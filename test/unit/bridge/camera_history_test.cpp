@@ -109,7 +109,9 @@ TEST_F(CameraHistoryTest, EachPartIsOfATimeOfItsOwn) {
   EXPECT_NEAR(found->camera.pose.translation().x(), 1.5, 1e-12);
   EXPECT_NEAR(camera::pan_tilt_roll(found->camera.pose.linear()).pan, 25, 1e-9);
   EXPECT_NEAR(found->camera.lens.image_distance, 13.5, 1e-12);
-  EXPECT_EQ(found->margin, 10 * ms) << "of the part that is nearest to the newest sample";
+  EXPECT_EQ(found->margins.position, 50 * ms);
+  EXPECT_EQ(found->margins.rotation, 30 * ms);
+  EXPECT_EQ(found->margins.lens, 10 * ms);
 }
 
 /// A CameraInfo a frame, and poses five times as often, each with the CameraInfo before it.
@@ -122,7 +124,8 @@ TEST_F(CameraHistoryTest, ALensOfTimesOfItsOwnIsInterpolatedByThese) {
   const auto found = history->at({at, at, at}, 0);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->camera.lens.image_distance, 11.25, 1e-12);
-  EXPECT_EQ(found->margin, 110 * ms) << "of the pose";
+  EXPECT_EQ(found->margins.position, 110 * ms);
+  EXPECT_EQ(found->margins.lens, 110 * ms) << "a lens that stands is no sample that is missing";
 }
 
 TEST_F(CameraHistoryTest, ALensThatChangesWithoutATimeOfItsOwnHasThatOfThePose) {

@@ -212,6 +212,32 @@ TEST_F(SinkDiagnostics, SendingIsOkWithItsRate) {
   EXPECT_EQ(value_of(status(), "last error"), "none");
 }
 
+TEST_F(SinkDiagnostics, ADelayHasItsMarginAndAge) {
+  now.form.delay = transport::Delay{40'000'000, 40'000'000, 20'000'000};
+  before.departures.emplace();
+  now.departures = DepartureStatistics{200, now.time, 0, 200 * 40.5e6, 200, 8, 200 * 0.97, 3};
+  expect(status(), Level::ok, "sending at 50.00 Hz");
+  EXPECT_EQ(value_of(status(), "delay (s)"), "position 0.04, rotation 0.04, lens 0.02");
+  EXPECT_EQ(value_of(status(), "lead (s)"), "0");
+  EXPECT_EQ(value_of(status(), "margin (fields)"), "0.97");
+  EXPECT_EQ(value_of(status(), "negative margins"), "8");
+  EXPECT_EQ(value_of(status(), "age of what is sent (ms)"), "40.50");
+  EXPECT_EQ(value_of(status(), "duplicate or late samples left out"), "3");
+}
+
+TEST_F(SinkDiagnostics, ADelayThatIsShorterThanSamplesTakeIsAWarning) {
+  now.form.delay = transport::Delay{6'000'000, 6'000'000, 6'000'000};
+  before.departures = DepartureStatistics{100, before.time, 0, 0, 100, 90, 0, 0};
+  now.departures = DepartureStatistics{200, now.time, 0, 100 * 12e6, 200, 190, -100 * 0.32, 0};
+  expect(status(), Level::warn, "100 of 100 sets were sent older than the delay says");
+  expect(status(), Level::warn, "margin -0.32 fields");
+  EXPECT_EQ(value_of(status(), "delay (s)"), "0.006");
+  now.form.delay.reset();
+  expect(status(), Level::ok, "sending");
+}
+
+TEST_F(SinkDiagnostics, WhatIsNotPacedHasNoMargin) { EXPECT_EQ(value_of(status(), "margin (fields)"), "no such key"); }
+
 TEST_F(SinkDiagnostics, NothingWrittenYet) {
   now.sink = {};
   expect(status(), Level::ok, "open, nothing written yet");

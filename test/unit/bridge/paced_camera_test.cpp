@@ -241,6 +241,12 @@ TEST(PacedCamera, MarginAndHowOftenItWasNegative) {
   EXPECT_NEAR(bad.age_sum / static_cast<double>(bad.sent), 12.4e6, 0.2e6);
 }
 
+TEST(PacedCamera, APartWithoutADelayIsAsNewAsItIsAndHasNoMargin) {
+  PacedCamera camera(50, {{{30 * ms, 30 * ms, 0}, 0}});
+  play(camera, samples(300));
+  EXPECT_EQ(camera.statistics(0).negative, 0u);
+}
+
 TEST(PacedCamera, OutputsOfSeveralDelaysFollowOneCamera) {
   PacedCamera camera(50, {delayed(6), delayed(50)});
   const auto all = samples(400);
@@ -302,6 +308,21 @@ TEST(PacedCamera, WithoutTimesArrivalsCount) {
   const auto sent = play(camera, all);
   ASSERT_GT(sent.size(), 150u);
   EXPECT_NEAR(sent.back().params.euler.x, seconds(sent.back().at - 30 * ms - ms / 5), 1e-6);
+}
+
+/// Without times of their own a late record and a duplicate look new; their counters say what they are.
+TEST(PacedCamera, OldRecordsThatArriveLateAreNotTakenForNewOnes) {
+  PacedCamera camera(50, {delayed(6)});
+  auto all = samples(300);
+  for (std::size_t i = 40; i + 3 < all.size(); i += 25) {
+    std::swap(all[i].params, all[i + 1].params);
+    all[i + 3].params = all[i + 2].params;
+  }
+  for (auto& sample : all) sample.time = 0;
+  const auto sent = play(camera, all);
+  EXPECT_GT(sent.size(), 250u);
+  for (std::size_t i = 1; i < sent.size(); ++i) EXPECT_GE(sent[i].params.euler.x, sent[i - 1].params.euler.x);
+  EXPECT_EQ(camera.statistics(0).left_out, 22u);
 }
 
 TEST(PacedCamera, AnotherFormatIsNotInterpolatedWithTheOneBefore) {

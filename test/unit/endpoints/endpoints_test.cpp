@@ -25,7 +25,7 @@ TEST(Endpoints, AnUnknownOptionListsTheKnownOfTheDirection) {
   EXPECT_THAT(read_error("shm:7?colour=red"), HasSubstr("none"));
   EXPECT_THAT(read_error("file:a?colour=red"), HasSubstr("rate, speed, loop, time, date"));
   EXPECT_THAT(write_error("file:a?colour=red"), HasSubstr("timecode, rate, number, overwrite"));
-  EXPECT_THAT(write_error("shm:7?colour=red"), HasSubstr("format, preset, id"));
+  EXPECT_THAT(write_error("shm:7?colour=red"), HasSubstr("format, preset, id, delay, lead"));
   EXPECT_THAT(read_error("udp://:7000?format=euler"), HasSubstr("format is for writing"));
 }
 
@@ -99,6 +99,31 @@ TEST(Endpoints, SinksOfEverySchemeHaveAForm) {
   }
 }
 
+TEST(Endpoints, SinksOfEverySchemeHaveADelay) {
+  using transport::Delay;
+  for (const std::string url : {"udp://192.0.2.7:7000?ttl=3&", "shm:7?", "file:take.trk?overwrite=1&"}) {
+    const auto one = parse_sink(url + "delay=0.04&lead=0.0125");
+    ASSERT_TRUE(one) << one.error();
+    EXPECT_EQ(one->form.delay, (Delay{40'000'000, 40'000'000, 40'000'000}));
+    EXPECT_EQ(one->form.lead, 12'500'000);
+    EXPECT_TRUE(one->form.is_timed());
+    EXPECT_EQ(parse_sink(url + "delay=0.04,0.02,0")->form.delay, (Delay{40'000'000, 20'000'000, 0}));
+    EXPECT_FALSE(parse_sink(url + "delay=0&lead=0")->form.is_timed());
+  }
+}
+
+TEST(Endpoints, AWrongDelayNamesTheRange) {
+  for (const std::string value : {"-0.01", "1.01", "40ms", "", "nan", "0.04,0.02", "0.1,0.1,0.1,0.1", "0,0,2"}) {
+    EXPECT_THAT(write_error("shm:7?delay=" + value),
+                AllOf(HasSubstr("delay = \"" + value + "\""), HasSubstr("0 to 1 seconds")));
+  }
+  for (const std::string value : {"-0.01", "0.041", "x"}) {
+    EXPECT_THAT(write_error("shm:7?lead=" + value),
+                AllOf(HasSubstr("lead = \"" + value + "\""), HasSubstr("0 to 0.04 seconds")));
+  }
+  EXPECT_THAT(read_error("udp://:7000?delay=0.04"), HasSubstr("delay is for writing"));
+}
+
 TEST(Endpoints, AWrongFormNamesKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(write_error("shm:7?format=eulr"), AllOf(HasSubstr("format = \"eulr\""), HasSubstr("euler")));
   EXPECT_EQ(parse_sink("shm:7?format=vertical,diagonal")->form.format, std::uint32_t{wire::diagonal})
@@ -122,6 +147,11 @@ TEST(Endpoints, WhatAFormDoesNotSayComesFromTheDefaults) {
   EXPECT_EQ(by_id.format, defaults.format);
   EXPECT_FALSE(by_id.sends_id);
   EXPECT_EQ(by_id.id, 9u);
+  defaults.delay = transport::Delay{1, 2, 3};
+  defaults.lead = 4;
+  EXPECT_EQ(transport::with_defaults(parse_sink("shm:7?format=matrix")->form, defaults).delay, defaults.delay);
+  EXPECT_EQ(transport::with_defaults(parse_sink("shm:7")->form, defaults).lead, 4);
+  EXPECT_EQ(transport::with_defaults(parse_sink("shm:7?delay=0")->form, defaults).delay, transport::Delay{});
 }
 
 TEST(Endpoints, OnlyATakeWithoutAPaceCanWait) {

@@ -149,7 +149,7 @@ TEST(ReadOutgoing, Defaults) {
   EXPECT_EQ(p.name, "crane1");
   EXPECT_THAT(p.sinks, ElementsAre(has_url("udp://127.0.0.1:7000")));
   EXPECT_EQ(p.input, OutgoingInput::params);
-  EXPECT_EQ(p.rate, 50);
+  EXPECT_FALSE(p.rate || p.pace || p.form.is_timed()) << "params go out as they come";
   EXPECT_EQ(p.studio_frame, "studio");
   EXPECT_EQ(p.camera_frame, "crane1");
   EXPECT_FALSE(p.form.id || p.constants);
@@ -195,6 +195,51 @@ TEST(ReadOutgoing, EverythingOfTf) {
   EXPECT_EQ(p.tf.aperture, 2.8);
   EXPECT_EQ(p.form.id, 7u);
   EXPECT_TRUE(wire::has(p.form.format.value(), wire::shift_in_pixels | wire::vertical | wire::camera_y_up));
+}
+
+TEST(ReadOutgoing, TfIsPacedAtARateOrSentAsItComes) {
+  auto tree = of_tf();
+  EXPECT_EQ(read_ros_to_trk_parameters(tree, "c").rate, 50);
+  EXPECT_TRUE(read_ros_to_trk_parameters(tree, "c").pace);
+  tree["rate"] = "tf";
+  EXPECT_FALSE(read_ros_to_trk_parameters(tree, "c").rate);
+  EXPECT_FALSE(read_ros_to_trk_parameters(tree, "c").pace);
+  tree["pace"] = true;
+  EXPECT_TRUE(read_ros_to_trk_parameters(tree, "c").pace);
+  tree["rate"] = "fast";
+  EXPECT_THAT(message_of(tree), HasSubstr("~rate = 'fast': must be 1 to 1000 Hz, or tf"));
+  tree["rate"] = 0;
+  EXPECT_THAT(message_of(tree), HasSubstr("~rate = 0: must be 1 to 1000 Hz"));
+  auto params = tree_with_sink();
+  params["rate"] = "tf";
+  EXPECT_THAT(message_of(params), HasSubstr("~rate = 'tf': must be 1 to 1000 Hz"));
+  params["rate"] = 59.94;
+  params["pace"] = true;
+  EXPECT_EQ(read_ros_to_trk_parameters(params, "c").rate, 59.94);
+  EXPECT_TRUE(read_ros_to_trk_parameters(params, "c").pace);
+}
+
+TEST(ReadOutgoing, ADelayIsOneNumberOrOneAPart) {
+  using transport::Delay;
+  auto tree = tree_with_sink();
+  tree["delay"] = 0.04;
+  tree["lead"] = 0.0125;
+  EXPECT_EQ(read_ros_to_trk_parameters(tree, "c").form.delay, (Delay{40'000'000, 40'000'000, 40'000'000}));
+  EXPECT_EQ(read_ros_to_trk_parameters(tree, "c").form.lead, 12'500'000);
+  tree["delay"] = XmlRpcValue();
+  tree["delay"]["position"] = 0.04;
+  tree["delay"]["rotation"] = 0;
+  EXPECT_THAT(message_of(tree), HasSubstr("~delay/lens = (none): must be given"));
+  tree["delay"]["lens"] = 0.06;
+  EXPECT_EQ(read_ros_to_trk_parameters(tree, "c").form.delay, (Delay{40'000'000, 0, 60'000'000}));
+  tree["delay"]["zoom"] = 0.06;
+  tree["delay"]["lens"] = 1.5;
+  EXPECT_THAT(message_of(tree),
+              AllOf(HasSubstr("~delay/zoom"), HasSubstr("~delay/lens = 1.5: must be 0 to 1 seconds")));
+  tree["delay"] = -0.01;
+  tree["lead"] = 0.05;
+  EXPECT_THAT(message_of(tree), AllOf(HasSubstr("~delay = -0.01: must be 0 to 1 seconds"),
+                                      HasSubstr("~lead = 0.05: must be 0 to 0.04 seconds")));
 }
 
 TEST(ReadOutgoing, ASinkMayHaveAFormOfItsOwn) {

@@ -1,6 +1,9 @@
 #include "tools/relay.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <sstream>
@@ -12,6 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/clock.h"
 #include "file/take.h"
 #include "gated_sink.h"
 #include "memory_feed.h"
@@ -212,6 +216,71 @@ TEST_F(RelayTest, EverySinkHasItsOwnForm) {
   ASSERT_EQ(other.params().size(), 1u);
   EXPECT_EQ(other.params()[0].id, 3u);
   EXPECT_NEAR(other.params()[0].fov, 2 * std::atan(8.8 / 2 / 42) * 180 / M_PI, 1e-9);
+}
+
+/// Over sockets: x is when a set was sent, in s.
+TEST_F(RelayTest, ADelayedSinkGetsTheCameraOfThatLongAgo) {
+  const auto seconds_now = [] { return static_cast<double>(base::wall_now() % 1'000'000'000'000) / 1e9; };
+  const test::PlainSocket tracker, receiver;
+  const auto source = endpoints::open_source("udp://127.0.0.1:0");
+  add_gate();
+  add(endpoints::parse_sink("udp://127.0.0.1:" + std::to_string(receiver.port()) + "?delay=0.04").value());
+  FanOut sinks(err);
+  for (const auto& endpoint : to) sinks.add(endpoint, {});
+  std::thread relaying([&] { EXPECT_EQ(relay(*source, sinks), cli::exit_good) << err.str(); });
+
+  constexpr std::uint64_t sets = 100;
+  std::atomic<double> last_x = 0;
+  std::atomic<bool> is_over = false;
+  std::thread tracking([&] {
+    auto next = std::chrono::steady_clock::now();
+    for (std::uint64_t counter = 1; counter <= sets; ++counter) {
+      std::this_thread::sleep_until(next += std::chrono::milliseconds(20));
+      auto params = test::params(counter);
+      params.euler.x = seconds_now();
+      last_x = params.euler.x;
+      tracker.send(test::datagram(params), "127.0.0.1", test::port_of(*source));
+    }
+    is_over = true;
+    EXPECT_TRUE(gate.has_written(sets)) << "the sink without a delay waits for nothing";
+    source->stop();
+  });
+  double least_age = 1e9, x = 0;
+  std::uint64_t counter = 0;
+  wire::LayoutDetector detector;
+  while (!is_over || x < last_x) {
+    const auto bytes = receiver.receive();
+    if (!bytes) break;
+    const auto record = wire::decode(*bytes, detector).value().record;
+    const auto& params = std::get<wire::CameraParams>(record);
+    if (counter > 0) {
+      EXPECT_EQ(params.counter, counter + 1);
+      EXPECT_GT(params.euler.x, x);
+    }
+    counter = params.counter;
+    x = params.euler.x;
+    const double age = seconds_now() - x;
+    EXPECT_GE(age, 0.04);
+    least_age = std::min(least_age, age);
+  }
+  tracking.join();
+  relaying.join();
+  EXPECT_EQ(x, last_x) << "what was still to come at the end was sent";
+  EXPECT_GT(counter, sets / 2);
+  EXPECT_LT(least_age, 0.06);
+  EXPECT_THAT(err.str(), testing::ContainsRegex("margin [0-9.]+ fields, negative [0-9]+ times of [0-9]+, age 4"));
+}
+
+TEST_F(RelayTest, ATakeThatIsReadAsFastAsPossibleCannotBeDelayed) {
+  transport::SinkForm form;
+  form.delay = transport::Delay{1, 1, 1};
+  add_gate(form);
+  try {
+    run({}, true);
+    FAIL() << "is refused";
+  } catch (const transport::TransportError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("read as fast as possible cannot be delayed"));
+  }
 }
 
 TEST_F(RelayTest, ASinkThatIsSlowDoesNotKeepTheOthersFromTheirRate) {

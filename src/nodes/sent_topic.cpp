@@ -1,0 +1,38 @@
+#include "sent_topic.h"
+
+#include <variant>
+
+#include "base/clock.h"
+#include "bridge/outlet_writer.h"
+#include "trk_bridge/ros/messages.h"
+
+namespace trk_bridge::nodes {
+
+SentTopic::SentTopic(::ros::NodeHandle node, const ros1::RosToTrkParameters& parameters)
+    : form_(parameters.form),
+      converter_(parameters.form.format),
+      topic_(node.advertise<trk_bridge::CameraParams>("sent", static_cast<std::uint32_t>(parameters.queue_size))) {
+  message_.header.frame_id = parameters.studio_frame;
+}
+
+void SentTopic::write(const wire::Record& record, std::int64_t time) {
+  if (const auto* constants = std::get_if<wire::CameraConstants>(&record)) {
+    // Those that leave no picture are not given by the input.
+    static_cast<void>(converter_.use(*constants));
+    return;
+  }
+  const auto& params = std::get<wire::CameraParams>(record);
+  ++statistics_.sets;
+  statistics_.last = base::steady_now();
+  statistics_.last_stamp = time;
+  published_.store(statistics_);
+  auto converted = converter_.convert(params).params;
+  // Sinks without a form of their own report why.
+  if (!converted) return;
+  converted->id = bridge::sent_id(form_, params.id);
+  ros1::to_msg(*converted, message_);
+  message_.header.stamp = ros1::to_time(time);
+  topic_.publish(message_);
+}
+
+}  // namespace trk_bridge::nodes
