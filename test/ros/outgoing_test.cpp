@@ -1,8 +1,11 @@
 // ros_to_trk: what goes in as messages and tf, what comes out over UDP, shared memory and files.
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
+#include <thread>
 
 #include <sensor_msgs/CameraInfo.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -371,6 +374,112 @@ TEST_F(FromTf, SetsComeNoFasterThanTheRateHoweverFastTfIs) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   // At the beginning one may be late and the next one in time.
   EXPECT_GT(took.count(), (sets - 2) / rate);
+}
+
+/// x is the time of the pose, in seconds of the current thousand.
+class FromTfInTime : public FromTf {
+ protected:
+  static double x_of(const ::ros::Time& time) { return time.sec % 1000 + time.nsec / 1e9; }
+
+  /// At 50 Hz, on the dot as far as the machine lets it, until the condition is met.
+  bool moves_until(const std::function<bool()>& met) {
+    auto next = std::chrono::steady_clock::now();
+    return eventually([&] {
+      if (std::chrono::steady_clock::now() >= next) {
+        next += std::chrono::milliseconds(20);
+        broadcast(camera, x_of(::ros::Time::now()));
+      }
+      receiver.take();
+      return met();
+    });
+  }
+  double least_age() const { return *std::min_element(ages.begin(), ages.end()); }
+
+  /// How old each set is when it comes, in s.
+  std::vector<double> ages;
+  ::ros::Subscriber sent = ::ros::NodeHandle().subscribe<trk_bridge::CameraParams>(
+      name_space + "/sent", 1000, [this](const trk_bridge::CameraParamsConstPtr& message) {
+        ages.push_back((::ros::Time::now() - message->header.stamp).toSec());
+        messages.push_back(*message);
+      });
+  std::vector<trk_bridge::CameraParams> messages;
+};
+
+TEST_F(FromTfInTime, ADelayIsExactByTheStampsOfTf) {
+  set("delay", 0.05);
+  ASSERT_NO_FATAL_FAILURE(open(50));
+  info_publisher.publish(info());
+  ASSERT_TRUE(moves_until([&] { return receiver.params.size() >= 60 && messages.size() >= 60; }));
+  EXPECT_GE(least_age(), 0.05);
+  EXPECT_LT(least_age(), 0.06);
+  for (std::size_t i = 0; i < 60; ++i) {
+    EXPECT_EQ(receiver.params[i].counter, i + 1);
+    const auto& message = messages[i];
+    EXPECT_EQ(message.counter, i + 1);
+    EXPECT_NEAR(message.x, x_of(message.header.stamp), 1e-4) << "between two poses it is interpolated";
+    EXPECT_NEAR(receiver.params[i].euler.x, message.x, 1e-6) << "sent says what is sent";
+  }
+  EXPECT_TRUE(diagnostics.becomes(status_name(receiver.url()), "delay (s)", "0.05"));
+  EXPECT_GE(std::stod(diagnostics.value(status_name(receiver.url()), "age of what is sent (ms)")), 50);
+}
+
+/// A tick at a random phase of tf would give ages of up to 20 ms, and others after each start.
+TEST_F(FromTfInTime, TheAgeIsTheSameAfterEveryStart) {
+  for (const int phase : {0, 7, 13}) {
+    node.reset();
+    std::this_thread::sleep_for(std::chrono::milliseconds(phase));
+    ASSERT_NO_FATAL_FAILURE(open(50));
+    info_publisher.publish(info());
+    ages.clear();
+    ASSERT_TRUE(moves_until([&] { return ages.size() >= 100; }));
+    EXPECT_LT(least_age(), 0.003) << "started " << phase << " ms later";
+  }
+}
+
+TEST_F(FromTfInTime, AtTheRateOfTfEveryPoseIsSentAsItComes) {
+  set("rate", std::string("tf"));
+  set_sinks({receiver.url()});
+  set("input", "tf");
+  set("chip_width", 9.6);
+  set("chip_height", 5.4);
+  info_publisher = ::ros::NodeHandle().advertise<sensor_msgs::CameraInfo>(name_space + "/camera_info", 10);
+  ASSERT_TRUE(starts());
+  ASSERT_TRUE(eventually([&] { return info_publisher.getNumSubscribers() > 0; }));
+  info_publisher.publish(info());
+  ASSERT_TRUE(moves(1));
+  for (int i = 0; i < 50; ++i) {
+    broadcast(camera, ++at);
+    ASSERT_TRUE(eventually([&] {
+      receiver.take();
+      return receiver.params.back().euler.x == at;
+    })) << i;
+  }
+}
+
+TEST_F(FromParams, AMessageIsDelayedByItsStamp) {
+  set("delay", 0.05);
+  ASSERT_NO_FATAL_FAILURE(open({receiver.url(), receiver.url() + "?delay=0&id=9"}));
+  std::uint64_t counter = 0;
+  std::vector<wire::CameraParams> delayed, at_once;
+  auto next = std::chrono::steady_clock::now();
+  ASSERT_TRUE(eventually([&] {
+    if (std::chrono::steady_clock::now() >= next) {
+      next += std::chrono::milliseconds(20);
+      auto record = params(++counter, 7);
+      record.euler.x = static_cast<double>(counter);
+      publish(record);
+    }
+    receiver.take();
+    for (const auto& one : receiver.params) (one.id == 9 ? at_once : delayed).push_back(one);
+    receiver.params.clear();
+    return delayed.size() >= 30 && at_once.size() >= 30;
+  }));
+  EXPECT_EQ(at_once.front().euler.x, 1) << "this one is sent as it comes";
+  EXPECT_EQ(at_once.front().counter, 1u);
+  for (std::size_t i = 1; i < delayed.size(); ++i) {
+    EXPECT_EQ(delayed[i].counter, delayed[i - 1].counter + 1);
+    EXPECT_GT(delayed[i].euler.x, delayed[i - 1].euler.x);
+  }
 }
 
 }  // namespace
