@@ -83,6 +83,7 @@ def stand_ins(root, build, slot):
         StandIn(r"\b(read_mem|write_mem) 7\b", rf"\1 {slot}", "the same"),
         StandIn(r"/path/to/trk_bridge\b", shlex.quote(str(root)), "where the reader has the repository"),
         StandIn(r"(?<![\w/.])\./scripts/", shlex.quote(str(root)) + "/scripts/", "commands run in an empty folder"),
+        StandIn(r"(?<![\w/.])doc/(?=\w+\.py)", shlex.quote(str(root)) + "/doc/", "commands run in an empty folder"),
         StandIn(r"(?<![\w/.])test/(?=data/|rviz/)", shlex.quote(str(root)) + "/test/", "the same"),
         StandIn(r"(?<![\w/.])build/(?=devel/|doc/)", f"{build}/", "the build that the tests are of"),
         StandIn(r"(?<=--install )build\b", build, "the same"),
