@@ -38,6 +38,26 @@ trk_bridge::wire::CameraParams params_at(std::int64_t time) {
   return params;
 }
 
+/// From each to the next, how far (ms) it is off the period.
+std::vector<double> deviations_of(const std::vector<double>& at) {
+  std::vector<double> deviations;
+  for (std::size_t i = 1; i < at.size(); ++i) deviations.push_back(std::abs(at[i] - at[i - 1] - period / 1e6));
+  return deviations;
+}
+
+/// What the machine can do: a thread that does nothing but wait.
+void measure_timer(int seconds) {
+  std::vector<double> at;
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < seconds * 50; ++i) {
+    std::this_thread::sleep_until(begin + std::chrono::nanoseconds(i * period));
+    at.push_back(static_cast<double>(steady_now()) / 1e6);
+  }
+  const auto deviations = deviations_of(at);
+  std::printf("  a timer alone     %6.3f %6.3f %6.3f\n", part_of(deviations, 0.5), part_of(deviations, 0.99),
+              part_of(deviations, 1));
+}
+
 /// Samples that arrive `jitter` ns late at most, evenly spread.
 void measure(int seconds, std::int64_t delay, std::int64_t jitter) {
   std::vector<double> at, age;
@@ -60,14 +80,13 @@ void measure(int seconds, std::int64_t delay, std::int64_t jitter) {
       departures.write(params_at(wall + time), wall + time);
     }
   }
-  std::vector<double> deviations, ages;
-  for (std::size_t i = 100; i < at.size(); ++i) {
-    deviations.push_back(std::abs(at[i] - at[i - 1] - period / 1e6));
-    ages.push_back(age[i]);
-  }
+  // Without the first two seconds.
+  at.erase(at.begin(), at.begin() + 100);
+  age.erase(age.begin(), age.begin() + 100);
+  const auto deviations = deviations_of(at);
   std::printf("%8.1f %8.1f   %6.3f %6.3f %6.3f   %6.2f %6.2f\n", static_cast<double>(delay) / 1e6,
               static_cast<double>(jitter) / 1e6, part_of(deviations, 0.5), part_of(deviations, 0.99),
-              part_of(deviations, 1), part_of(ages, 0.5), part_of(ages, 0.99));
+              part_of(deviations, 1), part_of(age, 0.5), part_of(age, 0.99));
 }
 
 void measure_cost() {
@@ -93,6 +112,7 @@ int main(int argc, char** argv) {
   const int seconds = argc > 1 ? std::atoi(argv[1]) : 20;
   std::printf("delay ms  jitter ms   intervals off 20 ms by     age, ms\n");
   std::printf("                        p50    p99    max      p50    p99\n");
+  measure_timer(seconds);
   for (const std::int64_t jitter : {0, 2'000'000}) {
     for (const std::int64_t delay : {0, 6'000'000, 40'000'000}) measure(seconds, delay, jitter);
   }

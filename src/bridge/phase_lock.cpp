@@ -14,6 +14,8 @@ constexpr int most_strays = 10;
 constexpr std::int64_t longest_gap = 1'000'000'000;
 /// ns, behind an arrival that comes as expected: what it takes a sample to be ready.
 constexpr double least_wait = 300'000;
+/// ns: what is sent is to be as new as it can. Who wants it even through more jitter than this gives it a delay.
+constexpr double longest_wait = 800'000;
 /// Of rates that are one.
 constexpr double tolerance = 0.005;
 
@@ -72,15 +74,20 @@ void PhaseLock::correct(double periods, double error) noexcept {
   const double fading = std::exp(-1 / memory);
   const double alpha = std::max(2 * (2 * k - 1) / (k * (k + 1)), 1 - fading * fading);
   const double beta = std::max(6 / (k * (k + 1)), (1 - fading) * (1 - fading));
-  phase_ += periods * sample_period_ + alpha * error;
-  sample_period_ += beta * error / periods;
+  // Delays are rare and long: they count as far as others, so that the rhythm stays where most samples are.
+  const double limit = samples_ < 20 ? std::abs(error) : least_wait / 2 + 2 * deviation_;
+  const double counted = std::clamp(error, -limit, limit);
+  phase_ += periods * sample_period_ + alpha * counted;
+  sample_period_ += beta * counted / periods;
   deviation_ += (std::abs(error) - deviation_) / 64;
   const auto whole = static_cast<std::int64_t>(phase_);
   origin_ += whole;
   phase_ -= static_cast<double>(whole);
 }
 
-double PhaseLock::wait() const noexcept { return std::min(least_wait + 3 * deviation_, sample_period_ / 4); }
+double PhaseLock::wait() const noexcept {
+  return std::min({least_wait + 3 * deviation_, longest_wait, sample_period_ / 4});
+}
 
 double PhaseLock::step() const noexcept {
   if (!is_known()) return 0;

@@ -29,7 +29,7 @@ class PhaseLock {
   double sample_period() const noexcept { return is_known() ? sample_period_ : period_; }
   bool is_locked() const noexcept { return step() > 0; }
   /// ns, how long after an expected arrival a departure is: a little, and three times the samples' mean deviation, at
-  /// most a quarter of their period.
+  /// most 0.8 ms, or a quarter of their period.
   double wait() const noexcept;
 
   /// Samples that come within less than this belong together, ns.
