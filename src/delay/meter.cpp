@@ -1,0 +1,247 @@
+#include "meter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "comparison.h"
+
+namespace trk_bridge::delay {
+namespace {
+
+constexpr double least_time = 2;           // s of video
+constexpr double longest_interval = 0.15;  // s from frame to frame of one shot
+// Turns are compared over so long (s), and not from frame to frame: jitter of stamps then has hardly a part in them.
+constexpr double span_time = 0.2;
+constexpr double step = 0.005;             // s between delays that are tried: no camera's motion is finer
+constexpr double least_speed = 0.01;       // of the picture's width a second, RMS: slower is noise
+constexpr double least_correlation = 0.7;
+constexpr double worst_accuracy = 0.005;   // s
+constexpr double worst_scale_error = 0.1;
+constexpr double worst_focal_length_error = 0.01;  // to be used for anything
+constexpr double same_shape = 0.01;
+
+double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+/// Radians to what turns are compared in: pixels of the picture's middle, and for roll of a point beside it.
+Turn pixels(const camera::Raster& raster, double image_distance) {
+  return {raster.mx * image_distance, raster.mx * image_distance, raster.width / 4};
+}
+
+double speed(const Turn& squares, std::size_t spans) {
+  return std::sqrt(squares.sum() / static_cast<double>(std::max<std::size_t>(spans, 1))) / span_time;
+}
+
+/// Mean of the scales of pan and tilt that turn the right way, by their errors.
+void find_focal_length(Measurement& result) {
+  constexpr double perfect = 1e-4;  // as an error: none is smaller
+  double sum = 0, weights = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Axis& axis = result.axes[i];
+    if (!axis.moved || axis.scale <= 0) continue;
+    const double weight = 1 / (axis.scale_error * axis.scale_error + perfect * perfect);
+    sum += weight * axis.scale;
+    weights += weight;
+  }
+  if (weights == 0) return;
+  result.focal_length_scale = sum / weights;
+  result.focal_length_error = 1 / std::sqrt(weights);
+}
+
+}  // namespace
+
+const char* describe(CannotTell reason) noexcept {
+  switch (reason) {
+    case CannotTell::no_constants:
+      return "there are no constants";
+    case CannotTell::other_shape:
+      return "the pictures have another ratio of width and height than the constants";
+    case CannotTell::too_little:
+      return "there are not two seconds of video with tracking before and after";
+    case CannotTell::hardly_moved:
+      return "the camera hardly moved";
+    case CannotTell::picture_stood:
+      return "tracking moved, and the picture stood or had too little in it to be followed";
+    case CannotTell::tracking_stood:
+      return "the picture moved, and tracking stood";
+    case CannotTell::disagree:
+      return "the picture and tracking do not move alike at any delay";
+    case CannotTell::too_even:
+      return "the camera moved too evenly: let it pan quickly and stop";
+    case CannotTell::out_of_range:
+      return "the delay is larger than those that were tried";
+  }
+  return "";
+}
+
+camera::Result<void> Meter::add(std::int64_t stamp, const wire::CameraParams& params) {
+  const auto converted = converter_.convert(params);
+  if (!converted.pose) return tl::unexpected(converted.pose.error());
+  if (!converted.lens) return tl::unexpected(converted.lens.error());
+  if (!samples_.empty() && stamp <= samples_.back().stamp) samples_.clear();
+  samples_.push_back({stamp, converted.pose->linear(), *converted.lens});
+  return {};
+}
+
+void Meter::add(std::int64_t stamp, const cv::Mat& grey) {
+  const bool follows = last_frame_ != 0 && stamp > last_frame_;
+  if (!follows) frames_.clear();
+  const auto& points = motion_.next(grey);
+  if (follows) frames_.push_back({last_frame_, stamp, grey.size(), points});
+  last_frame_ = stamp;
+}
+
+void Meter::forget_before(std::int64_t stamp) {
+  while (!samples_.empty() && samples_.front().stamp < stamp) samples_.pop_front();
+  while (!frames_.empty() && frames_.front().before < stamp) frames_.pop_front();
+}
+
+std::optional<Turn> Meter::turn_in(const Frame& frame, const camera::Raster& raster, double focal_length_scale) const {
+  const auto after = std::lower_bound(samples_.begin(), samples_.end(), frame.stamp,
+                                      [](const Sample& sample, std::int64_t stamp) { return sample.stamp < stamp; });
+  camera::Lens lens = (after == samples_.end() ? samples_.back() : *after).lens;
+  lens.image_distance *= focal_length_scale;
+  std::vector<MovedPoint> points = frame.points;
+  const auto to_raster = [scale = raster.width / frame.size.width](Eigen::Vector2d& pixel) {
+    pixel = ((pixel.array() + 0.5) * scale - 0.5).matrix();
+  };
+  for (auto& point : points) {
+    to_raster(point.before);
+    to_raster(point.now);
+  }
+  auto turn = turn_of(points, lens, raster);
+  if (turn) *turn = turn->cwiseProduct(pixels(raster, lens.image_distance));
+  return turn;
+}
+
+std::vector<Span> Meter::spans_of(const std::vector<const Frame*>& frames, const camera::Raster& raster,
+                                  std::size_t length, double focal_length_scale) const {
+  const std::int64_t zero = samples_.front().stamp;
+  std::vector<Span> spans;
+  std::deque<Span> run;  // frames that follow upon each other, `length` at most
+  Turn turned = Turn::Zero();
+  for (const Frame* frame : frames) {
+    const auto turn = turn_in(*frame, raster, focal_length_scale);
+    const double from = seconds(frame->before - zero);
+    if (!turn || (!run.empty() && run.back().to != from)) {
+      run.clear();
+      turned.setZero();
+    }
+    if (!turn) continue;
+    run.push_back({from, seconds(frame->stamp - zero), *turn});
+    turned += *turn;
+    if (run.size() > length) {
+      turned -= run.front().turn;
+      run.pop_front();
+    }
+    if (run.size() == length) spans.push_back({run.front().from, run.back().to, turned});
+  }
+  return spans;
+}
+
+Measurement Meter::measure() const {
+  Measurement result;
+  const auto cannot = [&](CannotTell reason) {
+    result.cannot_tell = reason;
+    return result;
+  };
+  if (converter_.incoming() == nullptr) return cannot(CannotTell::no_constants);
+  if (samples_.empty()) return cannot(CannotTell::too_little);
+  const camera::Raster raster = camera::raster_of(*converter_.incoming());
+  const std::int64_t zero = samples_.front().stamp;
+
+  Path path;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const Sample &now = samples_[i], &before = samples_[i == 0 ? 0 : i - 1];
+    const double image_distance = (before.lens.image_distance + now.lens.image_distance) / 2;
+    path.add(seconds(now.stamp - zero),
+             turn_between(before.rotation, now.rotation).cwiseProduct(pixels(raster, image_distance)));
+  }
+  result.tracking_interval = path.interval();
+
+  // A few steps more than delays that are tried, for slopes and parabolas; and the span that ends with a frame.
+  const double margin = most_delay_ + 4 * step;
+  std::vector<const Frame*> frames;
+  std::vector<double> intervals;
+  for (const Frame& frame : frames_) {
+    const double before = seconds(frame.before - zero), now = seconds(frame.stamp - zero);
+    if (now - before > longest_interval) continue;
+    intervals.push_back(now - before);
+    if (path.covers(before - margin - 2 * span_time, now + margin)) frames.push_back(&frame);
+  }
+  result.frame_interval = median(intervals);
+  if (static_cast<double>(frames.size()) * result.frame_interval < least_time) return cannot(CannotTell::too_little);
+  const cv::Size size = frames.front()->size;
+  if (std::abs(size.width * raster.height / (size.height * raster.width) - 1) > same_shape) {
+    return cannot(CannotTell::other_shape);
+  }
+
+  const auto length = static_cast<std::size_t>(std::max(1.0, std::round(span_time / result.frame_interval)));
+  const Comparison comparison(path, spans_of(frames, raster, length, 1));
+  const std::size_t count = comparison.spans().size();
+  result.followed = static_cast<double>(count) / static_cast<double>(frames.size());
+  const Sums as_stamped = comparison.sums(0);
+  const double least = least_speed * raster.width;
+  const bool picture_moved = result.followed > 0.5 && speed(as_stamped.picture_squares(), count) > least;
+  const bool tracking_moved = speed(as_stamped.tracking_squares(), count) > least;
+  if (!tracking_moved) return cannot(picture_moved ? CannotTell::tracking_stood : CannotTell::hardly_moved);
+  if (!picture_moved) return cannot(CannotTell::picture_stood);
+
+  find_delay(comparison, result);
+  // Spans overlap: one in `length` counts.
+  const double overlap = std::sqrt(static_cast<double>(length));
+  result.accuracy = comparison.accuracy(result.delay, step) * overlap;
+  const auto judge = [&](const Sums& sums) {
+    for (int i = 0; i < 3; ++i) {
+      Axis& axis = result.axes[static_cast<std::size_t>(i)];
+      axis.scale = sums.scale(i);
+      axis.scale_error = sums.scale_error(i) * overlap;
+      axis.correlation = sums.correlation(i);
+      axis.moved = axis.scale_error < worst_scale_error &&
+                   std::sqrt(sums.tracking_squares()[i] / static_cast<double>(count)) / span_time > least / 2;
+    }
+    find_focal_length(result);
+  };
+  judge(comparison.sums(result.delay));
+  // A wrong focal length also bends what is seen beside the middle, which the right one does not.
+  if (result.focal_length_scale && result.focal_length_error < worst_focal_length_error) {
+    judge(Comparison(path, spans_of(frames, raster, length, *result.focal_length_scale)).sums(result.delay));
+  }
+  for (const Span& span : comparison.spans()) {
+    const double time = span.to - span.from;
+    result.speeds.push_back({span.to - comparison.spans().front().to, span.turn / time,
+                             comparison.tracking(span, 0) / time, comparison.tracking(span, result.delay) / time});
+  }
+
+  if (result.correlation < least_correlation) return cannot(CannotTell::disagree);
+  if (!(result.accuracy < worst_accuracy)) return cannot(CannotTell::too_even);
+  if (std::abs(result.delay) > most_delay_ - step) return cannot(CannotTell::out_of_range);
+  return result;
+}
+
+void Meter::find_delay(const Comparison& comparison, Measurement& result) const {
+  const int steps = static_cast<int>(std::floor(most_delay_ / step));
+  std::vector<Sums> tried;
+  for (int i = -steps; i <= steps; ++i) tried.push_back(comparison.sums(i * step));
+  const auto best = [&](bool also_wrong_signs) {
+    const auto highest = std::max_element(tried.begin(), tried.end(), [&](const Sums& a, const Sums& b) {
+      return a.explained(also_wrong_signs) < b.explained(also_wrong_signs);
+    });
+    return comparison.refined(static_cast<double>(highest - tried.begin() - steps) * step, 2 * step, also_wrong_signs);
+  };
+  const auto left = [&](double delay, bool also_wrong_signs) {
+    return 1 - comparison.sums(delay).explained(also_wrong_signs);
+  };
+  // To and fro is the same with the other sign half a period away: wrong signs are believed where they leave less than
+  // half of what right ones do.
+  const double right = best(false), any = best(true);
+  const bool wrong_signs = 2 * left(any, true) < left(right, false);
+  result.delay = wrong_signs ? any : right;
+  result.correlation = std::sqrt(1 - left(result.delay, wrong_signs));
+  for (int i = -steps; i <= steps; ++i) {
+    const double explained = tried[static_cast<std::size_t>(i + steps)].explained(wrong_signs);
+    result.likeness.push_back({i * step, std::sqrt(explained)});
+  }
+}
+
+}  // namespace trk_bridge::delay

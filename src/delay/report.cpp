@@ -1,0 +1,161 @@
+#include "report.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include <rapidjson/stringbuffer.h>
+#include <rapidjson/writer.h>
+
+namespace trk_bridge::delay {
+namespace {
+
+constexpr double least_fault = 0.01;  // of a scale
+constexpr double sure = 3;            // standard deviations
+constexpr double ms = 1e3;            // in a second
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+bool is_off(double scale, double error) {
+  return std::abs(scale - 1) > least_fault && std::abs(scale - 1) > sure * error;
+}
+
+std::string with_error(double scale, double error) {
+  return number("%.3f", scale) + number(" +- %.3f", error);
+}
+
+bool has_focal_length(const Measurement& measurement) {
+  return measurement.focal_length_scale.has_value();
+}
+
+bool is_focal_length_off(const Measurement& measurement) {
+  return has_focal_length(measurement) && is_off(*measurement.focal_length_scale, measurement.focal_length_error);
+}
+
+std::string percent_wrong(double scale, const char* more, const char* less) {
+  const double wrong = 1 / scale - 1;
+  return number("%.1f %% too ", std::abs(wrong) * 100) + (wrong > 0 ? more : less);
+}
+
+using Writer = rapidjson::Writer<rapidjson::StringBuffer>;
+
+void write(Writer& json, const char* key, double value) {
+  json.Key(key);
+  if (std::isfinite(value)) {
+    json.Double(value);
+  } else {
+    json.Null();
+  }
+}
+
+void write(Writer& json, const Measurement& measurement, double field) {
+  write(json, "delay", measurement.delay);
+  write(json, "accuracy", measurement.accuracy);
+  write(json, "fields", measurement.delay / field);
+  write(json, "correlation", measurement.correlation);
+  json.Key("axes");
+  json.StartObject();
+  for (std::size_t i = 0; i < axis_names.size(); ++i) {
+    const Axis& axis = measurement.axes[i];
+    json.Key(axis_names[i]);
+    if (!axis.moved) {
+      json.Null();
+      continue;
+    }
+    json.StartObject();
+    write(json, "scale", axis.scale);
+    write(json, "scale_error", axis.scale_error);
+    write(json, "correlation", axis.correlation);
+    json.EndObject();
+  }
+  json.EndObject();
+  write(json, "focal_length_scale", measurement.focal_length_scale.value_or(std::nan("")));
+  write(json, "focal_length_error", has_focal_length(measurement) ? measurement.focal_length_error : std::nan(""));
+}
+
+}  // namespace
+
+std::string summary(const Measurement& measurement, double field) {
+  if (measurement.cannot_tell) return std::string("cannot tell: ") + describe(*measurement.cannot_tell);
+  const double delay = measurement.delay;
+  const std::string size = number("%.1f ms ", std::abs(delay) * ms);
+  const std::string fields = number(" (%.2f fields)", std::abs(delay) / field);
+  return (delay < 0 ? "tracking is " + size + "later than the video" : "the video is " + size + "later than tracking") +
+         fields;
+}
+
+std::vector<std::string> faults(const Measurement& measurement) {
+  std::vector<std::string> found;
+  if (measurement.cannot_tell) return found;
+  for (std::size_t i = 0; i < axis_names.size(); ++i) {
+    const Axis& axis = measurement.axes[i];
+    if (axis.moved && axis.scale < 0) found.push_back(std::string(axis_names[i]) + " turns the wrong way");
+  }
+  const Axis& roll = measurement.axes[2];
+  if (roll.moved && roll.scale > 0 && is_off(roll.scale, roll.scale_error)) {
+    found.push_back("tracking's roll is " + percent_wrong(roll.scale, "large", "small"));
+  }
+  if (is_focal_length_off(measurement)) {
+    found.push_back("tracking's focal length is " + percent_wrong(*measurement.focal_length_scale, "long", "short"));
+  }
+  return found;
+}
+
+std::vector<std::pair<std::string, std::string>> values(const Measurement& measurement, double field) {
+  std::vector<std::pair<std::string, std::string>> all;
+  const auto rate = [](double interval) { return interval > 0 ? number("%.2f", 1 / interval) : "unknown"; };
+  if (!measurement.cannot_tell) {
+    all.emplace_back("delay (ms)", number("%.2f", measurement.delay * ms));
+    all.emplace_back("accuracy (ms)", number("%.2f", measurement.accuracy * ms));
+    all.emplace_back("delay (fields)", number("%.3f", measurement.delay / field));
+    all.emplace_back("field (ms)", number("%.2f", field * ms));
+    all.emplace_back("correlation", number("%.4f", measurement.correlation));
+    for (std::size_t i = 0; i < axis_names.size(); ++i) {
+      const Axis& axis = measurement.axes[i];
+      all.emplace_back(std::string(axis_names[i]) + " scale",
+                       axis.moved ? with_error(axis.scale, axis.scale_error) : "hardly moved");
+    }
+    all.emplace_back("focal length scale",
+                     has_focal_length(measurement)
+                         ? with_error(*measurement.focal_length_scale, measurement.focal_length_error)
+                         : "unknown");
+  }
+  all.emplace_back("video (Hz)", rate(measurement.frame_interval));
+  all.emplace_back("tracking (Hz)", rate(measurement.tracking_interval));
+  all.emplace_back("frames followed (%)", number("%.0f", measurement.followed * 100));
+  return all;
+}
+
+std::string setting(const Measurement& measurement) {
+  if (measurement.cannot_tell) return "";
+  if (measurement.delay < 0) return "add to the delay of trk_to_ros: " + number("%.4f", -measurement.delay);
+  return "for ros_to_trk: delay:=" + number("%.4f", measurement.delay);
+}
+
+std::string to_json(const Measurement& measurement, double field) {
+  rapidjson::StringBuffer text;
+  Writer json(text);
+  json.StartObject();
+  json.Key("cannot_tell");
+  if (measurement.cannot_tell) {
+    json.String(describe(*measurement.cannot_tell));
+  } else {
+    json.Null();
+    write(json, measurement, field);
+  }
+  write(json, "field", field);
+  write(json, "frame_interval", measurement.frame_interval);
+  write(json, "tracking_interval", measurement.tracking_interval);
+  write(json, "followed", measurement.followed);
+  json.Key("faults");
+  json.StartArray();
+  for (const auto& fault : faults(measurement)) json.String(fault.c_str());
+  json.EndArray();
+  json.EndObject();
+  return text.GetString();
+}
+
+}  // namespace trk_bridge::delay
