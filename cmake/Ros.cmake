@@ -19,10 +19,11 @@ find_package(roslz4 REQUIRED)
 find_package(tf2 REQUIRED)
 find_package(tf2_msgs REQUIRED)
 find_package(BZip2 REQUIRED)
+# For delays measured in pictures: nodes and trk delay.
+find_package(cv_bridge REQUIRED)
 # For test_card and tests.
 find_package(image_geometry REQUIRED)
 find_package(image_transport REQUIRED)
-find_package(OpenCV REQUIRED COMPONENTS core imgproc calib3d)
 # For the display: rviz, and its own Qt.
 find_package(rviz REQUIRED)
 find_package(Qt5 ${rviz_QT_VERSION} REQUIRED COMPONENTS Core Gui Widgets)

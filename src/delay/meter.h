@@ -57,6 +57,9 @@ struct Likeness {
   double delay = 0, correlation = 0;
 };
 
+/// Delays that may be asked for as the largest one, s.
+inline constexpr double least_most_delay = 0.05, most_most_delay = 5;
+
 struct Measurement {
   std::optional<CannotTell> cannot_tell;  ///< if set, the delay and what is said of the axes mean nothing
   /// s. Positive: the video is later, a frame of stamp t shows the camera as tracking stamps it with t - delay.

@@ -19,6 +19,7 @@
 #include "relay.h"
 #ifdef TRK_BRIDGE_WITH_BAG
 #include "bag/command.h"
+#include "bag/delay_command.h"
 #endif
 
 namespace trk_bridge::tools {
@@ -202,12 +203,14 @@ int main(int argc, char** argv) {
   PresetsCommand presets_command(app);
 #ifdef TRK_BRIDGE_WITH_BAG
   bag::Command bag_command(app);
+  bag::DelayCommand delay_command(app);
 #else
-  app.footer("Built without ROS: trk bag is not part of it.");
+  app.footer("Built without ROS: trk bag and trk delay are not part of it.");
 #endif
   return cli::run_program(app, argc, argv, [&] {
 #ifdef TRK_BRIDGE_WITH_BAG
     if (bag_command.is_asked_for()) return bag_command.run();
+    if (delay_command.is_asked_for()) return delay_command.run();
 #endif
     if (dump_command.is_asked_for()) return dump_command.run();
     if (relay_command.is_asked_for()) return relay_command.run();
