@@ -145,8 +145,7 @@ DelayCommand::DelayCommand(CLI::App& app)
   command_->footer(help);
   command_->add_option("BAG", bag_, "Recorded with params, constants and pictures of the camera")->required();
   command_->add_option("--camera", options_.camera, "Its name in the bag (default: the only one)")->type_name("NAME");
-  command_
-      ->add_option("--image", options_.image, "Its video (default: NAME/image_raw, or the only one)")
+  command_->add_option("--image", options_.image, "Its video (default: NAME/image_raw, or the only one)")
       ->type_name("TOPIC");
   command_->add_option("--field-rate", field_rate_, "Fields a second (default: the rate of params)")
       ->check(CLI::Range(ros1::field_rate_range.least, ros1::field_rate_range.most))

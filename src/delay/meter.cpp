@@ -13,10 +13,10 @@ constexpr double least_time = 2;           // s of video
 constexpr double longest_interval = 0.15;  // s from frame to frame of one shot
 // Turns are compared over so long (s), and not from frame to frame: jitter of stamps then has hardly a part in them.
 constexpr double span_time = 0.2;
-constexpr double step = 0.005;             // s between delays that are tried: no camera's motion is finer
-constexpr double least_speed = 0.01;       // of the picture's width a second, RMS: slower is noise
+constexpr double step = 0.005;        // s between delays that are tried: no camera's motion is finer
+constexpr double least_speed = 0.01;  // of the picture's width a second, RMS: slower is noise
 constexpr double least_correlation = 0.7;
-constexpr double worst_accuracy = 0.005;   // s
+constexpr double worst_accuracy = 0.005;  // s
 constexpr double worst_scale_error = 0.1;
 constexpr double worst_focal_length_error = 0.01;  // to be used for anything
 constexpr double same_shape = 0.01;
@@ -58,6 +58,8 @@ const char* describe(CannotTell reason) noexcept {
       return "the pictures have another ratio of width and height than the constants";
     case CannotTell::too_little:
       return "there are not two seconds of video with tracking before and after";
+    case CannotTell::other_time:
+      return "video and tracking have stamps of different times: their clocks differ";
     case CannotTell::hardly_moved:
       return "the camera hardly moved";
     case CannotTell::picture_stood:
@@ -91,9 +93,10 @@ void Meter::add(std::int64_t stamp, const cv::Mat& grey) {
   last_frame_ = stamp;
 }
 
-void Meter::forget_before(std::int64_t stamp) {
-  while (!samples_.empty() && samples_.front().stamp < stamp) samples_.pop_front();
-  while (!frames_.empty() && frames_.front().before < stamp) frames_.pop_front();
+void Meter::keep(double time) {
+  const auto kept = static_cast<std::int64_t>(time * 1e9);
+  while (!samples_.empty() && samples_.front().stamp < samples_.back().stamp - kept) samples_.pop_front();
+  while (!frames_.empty() && frames_.front().before < frames_.back().stamp - kept) frames_.pop_front();
 }
 
 std::optional<Turn> Meter::turn_in(const Frame& frame, const camera::Raster& raster, double focal_length_scale) const {
@@ -146,7 +149,10 @@ Measurement Meter::measure() const {
     return result;
   };
   if (converter_.incoming() == nullptr) return cannot(CannotTell::no_constants);
-  if (samples_.empty()) return cannot(CannotTell::too_little);
+  if (samples_.empty() || frames_.empty()) return cannot(CannotTell::too_little);
+  if (frames_.front().before > samples_.back().stamp || frames_.back().stamp < samples_.front().stamp) {
+    return cannot(CannotTell::other_time);
+  }
   const camera::Raster raster = camera::raster_of(*converter_.incoming());
   const std::int64_t zero = samples_.front().stamp;
 

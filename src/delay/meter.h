@@ -13,21 +13,23 @@
 #include "comparison.h"
 #include "picture_motion.h"
 #include "trk_bridge/camera/converter.h"
+#include "trk_bridge/wire/record.h"
 #include "turn.h"
 
 namespace trk_bridge::delay {
 
 /// Why there is no delay.
 enum class CannotTell : std::uint8_t {
-  no_constants,   ///< without them nobody knows how far a turn moves the picture
-  other_shape,    ///< pictures have another ratio of width and height than the constants
-  too_little,     ///< fewer than two seconds of video with tracking around them
-  hardly_moved,   ///< the camera hardly moved
-  picture_stood,  ///< tracking moved and the picture did not, or nothing in it could be followed
-  tracking_stood, ///< the picture moved and tracking did not
-  disagree,       ///< no delay makes the two alike
-  too_even,       ///< the motion has no beginning and no end that could be compared
-  out_of_range,   ///< the best delay is at the end of those tried
+  no_constants,    ///< without them nobody knows how far a turn moves the picture
+  other_shape,     ///< pictures have another ratio of width and height than the constants
+  too_little,      ///< fewer than two seconds of video with tracking around them
+  other_time,      ///< stamps of video and tracking do not overlap
+  hardly_moved,    ///< the camera hardly moved
+  picture_stood,   ///< tracking moved and the picture did not, or nothing in it could be followed
+  tracking_stood,  ///< the picture moved and tracking did not
+  disagree,        ///< no delay makes the two alike
+  too_even,        ///< the motion has no beginning and no end that could be compared
+  out_of_range,    ///< the best delay is at the end of those tried
 };
 
 /// A line for a person.
@@ -78,8 +80,8 @@ struct Measurement {
 };
 
 /// Turns of the picture and of tracking are compared as if tracking were delayed by each of many delays: the best one,
-/// found between samples, is the video's. Every axis has a scale of its own, also a negative one, so that a wrong sign or
-/// a wrong focal length does not spoil the delay. Travel of the camera is not considered: while measuring it should
+/// found between samples, is the video's. Every axis has a scale of its own, also a negative one, so that a wrong sign
+/// or a wrong focal length does not spoil the delay. Travel of the camera is not considered: while measuring it should
 /// stand and turn. One camera; not synchronised.
 class Meter {
  public:
@@ -94,8 +96,8 @@ class Meter {
   /// A frame of video, CV_8UC1, of the whole picture in any resolution. As above, a stamp that is not later than the
   /// last forgets all of the video.
   void add(std::int64_t stamp, const cv::Mat& grey);
-  /// Forgets what is older.
-  void forget_before(std::int64_t stamp);
+  /// Forgets what is older than so many seconds before the newest frame, and the newest sample.
+  void keep(double seconds);
 
   Measurement measure() const;
 

@@ -43,8 +43,9 @@ cv::Point2d PictureMotion::whole_motion() {
   if (window_.size() != small_now_.size()) cv::createHanningWindow(window_, small_now_.size(), CV_32F);
   // Noise can hide the peak of a picture with little in it; the motion goes on then.
   const cv::Point2d correlated = cv::phaseCorrelate(small_before_, small_now_, window_);
-  whole_ = difference(small_before_, small_now_, correlated) < difference(small_before_, small_now_, whole_) ? correlated
-                                                                                                      : whole_;
+  whole_ = difference(small_before_, small_now_, correlated) < difference(small_before_, small_now_, whole_)
+               ? correlated
+               : whole_;
   return whole_ * (static_cast<double>(now_.cols) / small_now_.cols);
 }
 

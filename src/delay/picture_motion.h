@@ -28,7 +28,7 @@ class PictureMotion {
   cv::Point2d whole_motion();
 
   cv::Size size_;
-  cv::Mat before_, now_;               // reduced
+  cv::Mat before_, now_;                       // reduced
   cv::Mat small_before_, small_now_, window_;  // reduced further, for phase correlation
   cv::Point2d whole_;                          // in them
   std::vector<cv::Point2f> points_, found_;

@@ -23,13 +23,9 @@ bool is_off(double scale, double error) {
   return std::abs(scale - 1) > least_fault && std::abs(scale - 1) > sure * error;
 }
 
-std::string with_error(double scale, double error) {
-  return number("%.3f", scale) + number(" +- %.3f", error);
-}
+std::string with_error(double scale, double error) { return number("%.3f", scale) + number(" +- %.3f", error); }
 
-bool has_focal_length(const Measurement& measurement) {
-  return measurement.focal_length_scale.has_value();
-}
+bool has_focal_length(const Measurement& measurement) { return measurement.focal_length_scale.has_value(); }
 
 bool is_focal_length_off(const Measurement& measurement) {
   return has_focal_length(measurement) && is_off(*measurement.focal_length_scale, measurement.focal_length_error);
@@ -118,10 +114,9 @@ std::vector<std::pair<std::string, std::string>> values(const Measurement& measu
       all.emplace_back(std::string(axis_names[i]) + " scale",
                        axis.moved ? with_error(axis.scale, axis.scale_error) : "hardly moved");
     }
-    all.emplace_back("focal length scale",
-                     has_focal_length(measurement)
-                         ? with_error(*measurement.focal_length_scale, measurement.focal_length_error)
-                         : "unknown");
+    all.emplace_back("focal length scale", has_focal_length(measurement) ? with_error(*measurement.focal_length_scale,
+                                                                                      measurement.focal_length_error)
+                                                                         : "unknown");
   }
   all.emplace_back("video (Hz)", rate(measurement.frame_interval));
   all.emplace_back("tracking (Hz)", rate(measurement.tracking_interval));

@@ -12,8 +12,8 @@
 
 namespace trk_bridge::delay {
 
-/// Rotation about the camera's own axes, radians, in the signs of the protocol: pan to the left, tilt up, roll clockwise
-/// seen from behind. In this order: pan, tilt, roll.
+/// Rotation about the camera's own axes, radians, in the signs of the protocol: pan to the left, tilt up, roll
+/// clockwise seen from behind. In this order: pan, tilt, roll.
 using Turn = Eigen::Vector3d;
 
 /// The value in the middle; 0 for none.

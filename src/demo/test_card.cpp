@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <random>
 
 #include <ros/console.h>
 #include <sensor_msgs/image_encodings.h>
+#include <std_msgs/Float64.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <opencv2/imgproc.hpp>
 
@@ -35,6 +37,11 @@ cv::Mat picture_of(sensor_msgs::Image& image, int width, int height) {
   return cv::Mat(height, width, CV_8UC1, image.data.data());
 }
 
+double random_video_delay() {
+  std::random_device random;
+  return std::uniform_real_distribution<double>(0, most_random_video_delay)(random);
+}
+
 }  // namespace
 
 TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string& name)
@@ -53,6 +60,11 @@ TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node
   paired_infos_ = node.advertise<sensor_msgs::CameraInfo>("rectified/camera_info", 1);
   markers_ = node.advertise<visualization_msgs::MarkerArray>("test_card", 1, /*latch=*/true);
   markers_.publish(markers_of(figure_, parameters.studio_frame));
+  std_msgs::Float64 delay;
+  delay.data = parameters.random_video_delay ? random_video_delay() : parameters.video_delay;
+  video_delay_.fromSec(delay.data);
+  delay_publisher_ = node.advertise<std_msgs::Float64>("video_delay", 1, /*latch=*/true);
+  delay_publisher_.publish(delay);
 
   constants_subscriber_ = node.subscribe<trk_bridge::CameraConstants>(
       "constants", 1,
@@ -103,7 +115,8 @@ bool TestCard::render(const trk_bridge::CameraParams& params) {
     return false;
   }
   picture_trouble_.report("");
-  image_.header.stamp = params.header.stamp;
+  shown_ = params.header.stamp;
+  image_.header.stamp = shown_ + video_delay_;
   cv::Mat picture = picture_of(image_, view->width(), view->height());
   draw(figure_, *view, picture);
   return true;
@@ -116,7 +129,7 @@ bool TestCard::rectified_wanted() const {
 void TestCard::rectify_if_possible() {
   if (!to_be_rectified_) return;
   const auto found = std::find_if(infos_.rbegin(), infos_.rend(), [this](const sensor_msgs::CameraInfoConstPtr& info) {
-    return info->header.stamp == image_.header.stamp;
+    return info->header.stamp == shown_;
   });
   if (found == infos_.rend()) return;
   to_be_rectified_ = false;
@@ -142,6 +155,7 @@ void TestCard::rectify(const sensor_msgs::CameraInfo& info) {
   if (rectified_images_.getNumSubscribers() > 0) rectified_images_.publish(rectified_);
   if (paired_images_.getNumSubscribers() > 0) {
     sensor_msgs::CameraInfo straight = info;
+    straight.header.stamp = image_.header.stamp;
     std::fill(straight.D.begin(), straight.D.end(), 0.0);
     paired_infos_.publish(straight);
     paired_images_.publish(rectified_);

@@ -25,7 +25,9 @@ namespace trk_bridge::demo {
 /// subscribes. `rectified/image` is image_rect again, with a `rectified/camera_info` that comes before each image and
 /// has its stamp and no distortion: viewers that take the newest CameraInfo for any image are right then while the lens
 /// zooms. Neither tf nor CameraInfo has a part in image_raw: whether they agree with it can be seen and measured.
-/// The card itself is published as markers, latched, on `test_card`. All callbacks come from one thread.
+/// The card itself is published as markers, latched, on `test_card`, and the delay of the video, that pictures are
+/// stamped later than the params that they show (std_msgs/Float64, s), latched on `video_delay`. All callbacks come
+/// from one thread.
 class TestCard {
  public:
   /// Topics are in the namespace of `node`, parameters in that of `private_node` (test_card_parameters.h). Throws
@@ -51,18 +53,20 @@ class TestCard {
   };
 
   Figure figure_;
+  ::ros::Duration video_delay_;
   Clock::duration period_;
   Clock::time_point due_;
 
   std::optional<wire::CameraConstants> constants_;
   std::deque<sensor_msgs::CameraInfoConstPtr> infos_;  // the newest ones, the last is the newest
   sensor_msgs::Image image_, rectified_;
+  ::ros::Time shown_;             // stamp of the params that image_ shows
   bool to_be_rectified_ = false;  // image_, once its CameraInfo has come
   image_geometry::PinholeCameraModel model_;
   Trouble picture_trouble_, rectification_trouble_;
 
   image_transport::Publisher images_, rectified_images_, paired_images_;
-  ::ros::Publisher paired_infos_, markers_;
+  ::ros::Publisher paired_infos_, markers_, delay_publisher_;
   ::ros::Subscriber params_subscriber_, constants_subscriber_, info_subscriber_;
   nodes::NodeDiagnostics diagnostics_;
 };

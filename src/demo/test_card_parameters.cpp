@@ -12,6 +12,8 @@ TestCardParameters read_test_card_parameters(const XmlRpc::XmlRpcValue& tree, co
   TestCardParameters parameters;
   parameters.optical_frame = ros1::default_frames(camera).optical;
   reader.number("rate", parameters.rate, {0.1, 240, "Hz"});
+  reader.number("video_delay", parameters.video_delay, {-1, 1, "seconds"});
+  reader.flag("random_video_delay", parameters.random_video_delay);
   reader.parsed("studio_frame", parameters.studio_frame, ros1::parse_frame);
   reader.parsed("optical_frame", parameters.optical_frame, ros1::parse_frame);
   reader.diagnostic_period();
@@ -25,6 +27,9 @@ TestCardParameters read_test_card_parameters(const XmlRpc::XmlRpcValue& tree, co
 
   if (reader.are_sound({"optical_frame", "studio_frame"}) && parameters.optical_frame == parameters.studio_frame) {
     reader.fault("optical_frame", ros1::shown(parameters.optical_frame), "must differ from studio_frame");
+  }
+  if (reader.are_sound({"random_video_delay"}) && parameters.random_video_delay && reader.has("video_delay")) {
+    reader.fault("video_delay", "must not be given with random_video_delay, which picks it");
   }
   const std::pair<const char*, double> sizes[] = {
       {"width", place.width}, {"depth", place.depth}, {"height", place.height}};

@@ -9,8 +9,12 @@
 
 namespace trk_bridge::demo {
 
+inline constexpr double most_random_video_delay = 0.08;  // s
+
 struct TestCardParameters {
-  double rate = 25;  ///< images a second at most, Hz
+  double rate = 25;                 ///< images a second at most, Hz
+  double video_delay = 0;           ///< s that an image's stamp is later than what it shows
+  bool random_video_delay = false;  ///< instead: one that the node picks, up to most_random_video_delay
   std::string studio_frame = "studio", optical_frame;
   Place place;
 };

@@ -34,6 +34,7 @@ TEST(TestCardParameters, AreRead) {
   tree["rate"] = 5;
   tree["studio_frame"] = "stage";
   tree["optical_frame"] = "camera_optical";
+  tree["video_delay"] = 0.04;
   tree["x"] = -1.5;
   tree["y"] = 7;
   tree["width"] = 3;
@@ -44,6 +45,7 @@ TEST(TestCardParameters, AreRead) {
   EXPECT_EQ(parameters.rate, 5);
   EXPECT_EQ(parameters.studio_frame, "stage");
   EXPECT_EQ(parameters.optical_frame, "camera_optical");
+  EXPECT_EQ(parameters.video_delay, 0.04);
   const Place& place = parameters.place;
   EXPECT_THAT((std::array{place.x, place.y, place.width, place.depth, place.height, place.spacing}),
               ::testing::ElementsAre(-1.5, 7, 3, 2, 2.5, 0.5));

@@ -1,0 +1,6 @@
+#include "delay_meter.h"
+#include "node.h"
+
+int main(int argc, char** argv) {
+  return trk_bridge::nodes::node_main<trk_bridge::nodes::DelayMeter>(argc, argv, "delay_meter");
+}
