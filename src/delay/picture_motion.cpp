@@ -41,11 +41,14 @@ double difference(const cv::Mat& before, const cv::Mat& now, const cv::Point2d& 
 
 cv::Point2d PictureMotion::whole_motion() {
   if (window_.size() != small_now_.size()) cv::createHanningWindow(window_, small_now_.size(), CV_32F);
-  // Noise can hide the peak of a picture with little in it; the motion goes on then.
-  const cv::Point2d correlated = cv::phaseCorrelate(small_before_, small_now_, window_);
-  whole_ = difference(small_before_, small_now_, correlated) < difference(small_before_, small_now_, whole_)
-               ? correlated
-               : whole_;
+  // Copies: OpenCV 4.6 multiplies what it is given by the window.
+  small_before_.convertTo(correlated_before_, CV_32F);
+  small_now_.convertTo(correlated_now_, CV_32F);
+  const cv::Point2d correlated = cv::phaseCorrelate(correlated_before_, correlated_now_, window_);
+  // Noise can hide the peak of a picture with little in it: then the motion goes on.
+  if (difference(small_before_, small_now_, correlated) < difference(small_before_, small_now_, whole_)) {
+    whole_ = correlated;
+  }
   return whole_ * (static_cast<double>(now_.cols) / small_now_.cols);
 }
 
@@ -54,7 +57,7 @@ const std::vector<MovedPoint>& PictureMotion::next(const cv::Mat& grey) {
   std::swap(before_, now_);
   std::swap(small_before_, small_now_);
   now_ = reduced(grey, width_for_points);
-  reduced(now_, width_for_whole).convertTo(small_now_, CV_32F);
+  small_now_ = reduced(now_, width_for_whole);
   if (std::exchange(size_, grey.size()) != grey.size()) return moved_;
 
   const int distance = std::max(now_.cols / points_across, 1);

@@ -28,9 +28,10 @@ class PictureMotion {
   cv::Point2d whole_motion();
 
   cv::Size size_;
-  cv::Mat before_, now_;                       // reduced
-  cv::Mat small_before_, small_now_, window_;  // reduced further, for phase correlation
-  cv::Point2d whole_;                          // in them
+  cv::Mat before_, now_;              // reduced
+  cv::Mat small_before_, small_now_;  // reduced further, for phase correlation
+  cv::Mat correlated_before_, correlated_now_, window_;
+  cv::Point2d whole_;  // their motion
   std::vector<cv::Point2f> points_, found_;
   std::vector<unsigned char> is_found_;
   std::vector<float> errors_;

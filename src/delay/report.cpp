@@ -9,9 +9,10 @@
 namespace trk_bridge::delay {
 namespace {
 
-constexpr double least_fault = 0.01;  // of a scale
-constexpr double sure = 3;            // standard deviations
-constexpr double ms = 1e3;            // in a second
+constexpr double least_fault = 0.01;      // of a focal length
+constexpr double least_roll_fault = 0.1;  // of a scale: somebody who walks before the camera can make a few percent
+constexpr double sure = 3;                // standard deviations
+constexpr double ms = 1e3;                // in a second
 
 std::string number(const char* format, double value) {
   char text[64];
@@ -19,8 +20,8 @@ std::string number(const char* format, double value) {
   return text;
 }
 
-bool is_off(double scale, double error) {
-  return std::abs(scale - 1) > least_fault && std::abs(scale - 1) > sure * error;
+bool is_off(double scale, double error, double least) {
+  return std::abs(scale - 1) > least && std::abs(scale - 1) > sure * error;
 }
 
 std::string with_error(double scale, double error) { return number("%.3f", scale) + number(" +- %.3f", error); }
@@ -28,7 +29,8 @@ std::string with_error(double scale, double error) { return number("%.3f", scale
 bool has_focal_length(const Measurement& measurement) { return measurement.focal_length_scale.has_value(); }
 
 bool is_focal_length_off(const Measurement& measurement) {
-  return has_focal_length(measurement) && is_off(*measurement.focal_length_scale, measurement.focal_length_error);
+  return has_focal_length(measurement) &&
+         is_off(*measurement.focal_length_scale, measurement.focal_length_error, least_fault);
 }
 
 std::string percent_wrong(double scale, const char* more, const char* less) {
@@ -91,7 +93,7 @@ std::vector<std::string> faults(const Measurement& measurement) {
     if (axis.moved && axis.scale < 0) found.push_back(std::string(axis_names[i]) + " turns the wrong way");
   }
   const Axis& roll = measurement.axes[2];
-  if (roll.moved && roll.scale > 0 && is_off(roll.scale, roll.scale_error)) {
+  if (roll.moved && roll.scale > 0 && is_off(roll.scale, roll.scale_error, least_roll_fault)) {
     found.push_back("tracking's roll is " + percent_wrong(roll.scale, "large", "small"));
   }
   if (is_focal_length_off(measurement)) {

@@ -1,85 +1,194 @@
-#include <cstdio>
+// The meter on video of the test card whose delay is known.
+#include <functional>
 #include <random>
+#include <string>
 
 #include <gmock/gmock.h>
-#include <opencv2/imgproc.hpp>
 
+#include "card_video.h"
 #include "delay/meter.h"
-#include "demo/test_card_picture.h"
-#include "trk_bridge/wire/format.h"
+#include "delay/plot.h"
+#include "delay/report.h"
 
 namespace trk_bridge::delay {
 namespace {
 
-wire::CameraConstants constants() {
-  wire::CameraConstants c;
-  c.image_width = 320; c.image_height = 180; c.chip_width = c.fake_chip_width = 9.6; c.chip_height = c.fake_chip_height = 5.4;
-  return c;
-}
-double eased(double u) { u = std::clamp(u, 0.0, 1.0); return u * u * u * (10 + u * (6 * u - 15)); }
+using test::quick_pans;
+using test::quick_pans_end;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using Motion = std::function<wire::CameraParams(double)>;
 
-struct Shot {
-  double delay = 0.04, rate = 50, tracking_rate = 50, seconds = 6, sigma = 0, jitter = 0; bool foreground = false; double pan_sign = 1, focal = 1; bool still = false;
-};
-wire::CameraParams params_at(double t, bool still) {
-  wire::CameraParams p;
-  p.format = wire::euler;
-  double pan = 0, tilt = 0, roll = 0;
-  if (!still) {
-    pan = 15 * (eased((t - 1) / .6) - eased((t - 2.1) / .9) - eased((t-4)/.5)+ eased((t-5.5)/.7));
-    tilt = 6 * (eased((t - 1.5) / .6) - eased((t - 3) / .8));
-    roll = 6 * (eased((t - 3.5) / .6) - eased((t - 4.5) / .6));
-  }
-  p.euler = {0, 2, 2, pan, tilt - 3, roll};
-  p.fov = 9; p.k1 = 1e-3;
-  return p;
+constexpr double begin = 1e9;                // s: of all stamps
+constexpr double tenth_of_field = 0.1 / 50;  // s
+constexpr double tracking_rate = 50;         // Hz
+constexpr double before = 1.2, after = 0.8;  // s of tracking about the video
+
+std::int64_t stamp(double seconds) {
+  return static_cast<std::int64_t>(begin) * 1'000'000'000 + static_cast<std::int64_t>(seconds * 1e9);
 }
-Measurement run(const Shot& shot) {
+
+/// Frames are stamped with the time that they show.
+void add_video(Meter& meter, test::CardVideo& video, double rate, double seconds, const Motion& motion) {
+  constexpr double phase = 0.0033;  // of frames to samples
+  for (int i = 0; i < seconds * rate; ++i) {
+    const double t = phase + i / rate;
+    meter.add(stamp(t), video.frame(motion(t), t));
+  }
+}
+
+/// In place of what tracking there was: samples stamped so that the video is later by `delay`.
+void add_tracking(Meter& meter, double delay, const Motion& motion, double jitter = 0) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> gauss(0, jitter);
+  for (int i = 0; i < (before + quick_pans_end + after) * tracking_rate; ++i) {
+    const double t = i / tracking_rate - before;
+    const double late = jitter > 0 ? std::clamp(gauss(random), -4 * jitter, 4 * jitter) : 0;
+    ASSERT_TRUE(meter.add(stamp(t - delay + late), motion(t)));
+  }
+}
+
+/// Noise in the picture, somebody before a fifth of it, and 2 ms of jitter in the stamps of tracking.
+class SpoiltVideo : public ::testing::TestWithParam<double> {};
+
+TEST_P(SpoiltVideo, GivesTheDelayToATenthOfAField) {
   Meter meter;
-  (void)meter.use(constants());
-  std::mt19937 random(1);
-  std::normal_distribution<double> gauss;
-  const auto figure = demo::figure_at({});
-  auto wrong = [&](double t) { auto p = params_at(t, shot.still); p.euler.pan *= shot.pan_sign; p.fov *= shot.focal; return p; };
-  for (double t = -1.1; t < shot.seconds + .7; t += 1 / shot.tracking_rate) {
-    auto r = meter.add(static_cast<std::int64_t>((1000 + t + shot.jitter * std::clamp(gauss(random), -3., 3.)) * 1e9), wrong(t));
-    EXPECT_TRUE(r);
+  (void)meter.use(test::video_constants());
+  test::CardVideo video;
+  video.noise = 8;
+  video.foreground = true;
+  add_video(meter, video, GetParam(), quick_pans_end, quick_pans);
+  for (const double delay : {0.0, 0.0072, 0.02, 0.0413, 0.08, -0.03}) {
+    add_tracking(meter, delay, quick_pans, 0.002);
+    const auto found = meter.measure();
+    EXPECT_FALSE(found.cannot_tell) << describe(*found.cannot_tell);
+    EXPECT_NEAR(found.delay, delay, tenth_of_field);
+    EXPECT_LT(found.accuracy, tenth_of_field);
+    EXPECT_GT(found.correlation, 0.99);
+    EXPECT_NEAR(1 / found.frame_interval, GetParam(), 0.01);
+    EXPECT_NEAR(1 / found.tracking_interval, tracking_rate, 5);
+    EXPECT_THAT(faults(found), IsEmpty());
   }
-  cv::Mat picture(180, 320, CV_8UC1), noise(180, 320, CV_32F), fg(180, 320, CV_8UC1);
-  cv::theRNG().state = 5;
-  cv::randu(fg, 0, 255); cv::GaussianBlur(fg, fg, {9, 9}, 2); cv::normalize(fg, fg, 0, 255, cv::NORM_MINMAX);
-  for (double t = 0.0033; t < shot.seconds; t += 1 / shot.rate) {
-    demo::draw(figure, *demo::View::of(params_at(t, shot.still), constants()), picture);
-    if (shot.foreground) {
-      const int x = static_cast<int>(120 + 100 * std::sin(t * 2.5));
-      cv::Rect r(x, 50, 90, 128);
-      fg(cv::Rect(20, 20, 90, 128)).copyTo(picture(r & cv::Rect(0,0,320,180)));
-    }
-    if (shot.sigma > 0) {
-      cv::randn(noise, 0, shot.sigma);
-      cv::Mat f; picture.convertTo(f, CV_32F); f += noise; f.convertTo(picture, CV_8U);
-    }
-    meter.add(static_cast<std::int64_t>((1000 + t + shot.delay) * 1e9), picture);
-  }
-  auto m = meter.measure();
-  std::printf("rate %g true %5.1f got %7.3f +- %.3f ms corr %.4f followed %.3f  ", shot.rate, shot.delay * 1e3, m.delay * 1e3, m.accuracy * 1e3, m.correlation, m.followed);
-  for (auto& a : m.axes) std::printf("[%d %.4f +- %.4f c %.4f] ", a.moved, a.scale, a.scale_error, a.correlation);
-  std::printf(" f %.4f %s\n", m.focal_length_scale.value_or(0), m.cannot_tell ? describe(*m.cannot_tell) : "");
-  return m;
 }
 
-TEST(X, Y) {
-  for (double rate : {25., 50.}) {
-    for (double tr : {25., 50.}) run({0.0413, rate, tr});
-    for (double d : {0., 0.013, 0.08}) run({d, rate, 50});
-    run({0.0413, rate, 50, 6, 8});
-    run({0.0413, rate, 50, 6, 8, 0.002});
-    run({0.0413, rate, rate, 6, 8, 0.002, true});
-    run({0.0413, rate, 50, 6, 0, 0, false, -1});
-    run({0.0413, rate, 50, 6, 0, 0, false, 1, 1.03});
-    run({0.0413, rate, 50, 6, 8, 0.002, true, 1, 1.03});
-    run({0.0413, rate, 50, 6, 8, 0.002, true, 1, 1, true});
+INSTANTIATE_TEST_SUITE_P(Hz, SpoiltVideo, ::testing::Values(25.0, 50.0));
+
+class CleanVideo : public ::testing::Test {
+ protected:
+  /// Against tracking as it should not be, of a video that is 41.3 ms late.
+  static Measurement against(const Motion& tracking) {
+    static const Meter with_video = [] {
+      Meter meter;
+      (void)meter.use(test::video_constants());
+      test::CardVideo video;
+      add_video(meter, video, 25, quick_pans_end, quick_pans);
+      return meter;
+    }();
+    Meter meter = with_video;
+    add_tracking(meter, delay, tracking);
+    return meter.measure();
   }
+
+  static constexpr double delay = 0.0413;
+};
+
+TEST_F(CleanVideo, GivesDelayAndScalesMuchCloser) {
+  const auto found = against(quick_pans);
+  ASSERT_FALSE(found.cannot_tell);
+  EXPECT_NEAR(found.delay, delay, 2e-4);
+  EXPECT_NEAR(found.axes[0].scale, 1, 0.002);
+  EXPECT_NEAR(found.axes[1].scale, 1, 0.002);
+  EXPECT_NEAR(found.axes[2].scale, 1, 0.01);
+  EXPECT_EQ(summary(found, 0.02), "the video is 41.3 ms later than tracking (2.07 fields)");
+  EXPECT_THAT(faults(found), IsEmpty());
+}
+
+TEST_F(CleanVideo, APanThatTurnsTheWrongWayIsNamedAndTheDelayFound) {
+  const auto found = against([](double t) {
+    auto params = quick_pans(t);
+    params.euler.pan *= -1;
+    return params;
+  });
+  ASSERT_FALSE(found.cannot_tell);
+  EXPECT_NEAR(found.delay, delay, tenth_of_field);
+  EXPECT_NEAR(found.axes[0].scale, -1, 0.01);
+  EXPECT_GT(found.axes[1].scale, 0);
+  EXPECT_THAT(faults(found), ElementsAre("pan turns the wrong way"));
+}
+
+TEST_F(CleanVideo, AFocalLengthThatIsThreePercentTooLongIsNamed) {
+  const auto found = against([](double t) {
+    auto params = quick_pans(t);
+    params.fov *= 1.03;
+    return params;
+  });
+  ASSERT_FALSE(found.cannot_tell);
+  EXPECT_NEAR(found.delay, delay, tenth_of_field);
+  ASSERT_TRUE(found.focal_length_scale);
+  EXPECT_NEAR(*found.focal_length_scale, 1 / 1.03, 0.002);
+  EXPECT_THAT(faults(found),
+              ElementsAre(::testing::MatchesRegex("tracking's focal length is (2.9|3.0|3.1) % too long")));
+}
+
+TEST_F(CleanVideo, WhatCannotBeToldIsSaid) {
+  const auto why = [](const Motion& motion) { return against(motion).cannot_tell; };
+  EXPECT_EQ(why([](double) { return quick_pans(0); }), CannotTell::tracking_stood);
+  EXPECT_EQ(why([](double t) { return quick_pans(t + 30); }), CannotTell::tracking_stood);
+  EXPECT_EQ(why([](double t) { return quick_pans(t - 0.55); }), CannotTell::out_of_range);
+  const auto other_motion = [](double t) {
+    auto params = quick_pans(0);
+    params.euler.pan = 3 * std::sin(20 * t);
+    return params;
+  };
+  EXPECT_EQ(why(other_motion), CannotTell::disagree);
+}
+
+TEST_F(CleanVideo, IsDrawn) {
+  const std::string svg = to_svg(against(quick_pans), "a title");
+  EXPECT_THAT(svg, ::testing::AllOf(::testing::StartsWith("<svg "), HasSubstr(">a title</text>"),
+                                    HasSubstr("pan, pixels a second"), ::testing::EndsWith("</svg>\n")));
+  EXPECT_THAT(svg, ::testing::Not(HasSubstr("nan")));
+}
+
+TEST(StillVideo, TellsNothing) {
+  Meter meter;
+  (void)meter.use(test::video_constants());
+  test::CardVideo video;
+  video.noise = 8;
+  const auto still = [](double) { return quick_pans(0); };
+  add_video(meter, video, 25, 3.5, still);
+  EXPECT_EQ(meter.measure().cannot_tell, CannotTell::too_little) << "without tracking";
+  add_tracking(meter, 0.04, still);
+  EXPECT_EQ(meter.measure().cannot_tell, CannotTell::hardly_moved);
+  add_tracking(meter, 0.04, quick_pans);
+  EXPECT_EQ(meter.measure().cannot_tell, CannotTell::picture_stood);
+  meter.keep(2.2);
+  EXPECT_EQ(meter.measure().cannot_tell, CannotTell::too_little);
+}
+
+TEST(EvenPan, TellsNothing) {
+  Meter meter;
+  (void)meter.use(test::video_constants());
+  test::CardVideo video;
+  video.noise = 8;
+  const auto even = [](double t) {
+    auto params = quick_pans(0);
+    params.euler.pan = 5 * t - 10;
+    return params;
+  };
+  add_video(meter, video, 25, 3.5, even);
+  add_tracking(meter, 0.04, even);
+  EXPECT_EQ(meter.measure().cannot_tell, CannotTell::too_even);
+}
+
+TEST(Clocks, ThatDifferAreNamed) {
+  Meter meter;
+  (void)meter.use(test::video_constants());
+  test::CardVideo video;
+  add_video(meter, video, 25, 0.5, quick_pans);
+  add_tracking(meter, 37, quick_pans);
+  EXPECT_EQ(meter.measure().cannot_tell, CannotTell::other_time);
 }
 
 }  // namespace
