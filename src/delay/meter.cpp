@@ -32,6 +32,23 @@ double speed(const Turn& squares, std::size_t spans) {
   return std::sqrt(squares.sum() / static_cast<double>(std::max<std::size_t>(spans, 1))) / span_time;
 }
 
+/// Whether a turn is far from those of the frames about it: no camera does that, the picture was taken for another part
+/// of what looks alike.
+bool is_jump(const std::vector<std::optional<Turn>>& turns, std::size_t i, double width) {
+  constexpr std::size_t about = 2;            // frames to each side
+  constexpr double far = 0.02, factor = 0.5;  // of the picture's width, and of what the others turned
+  const std::size_t begin = i < about ? 0 : i - about, end = std::min(i + about + 1, turns.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> others;
+    for (std::size_t k = begin; k < end; ++k) {
+      if (turns[k]) others.push_back((*turns[k])[axis]);
+    }
+    const double usual = median(others);
+    if (std::abs((*turns[i])[axis] - usual) > far * width + factor * std::abs(usual)) return true;
+  }
+  return false;
+}
+
 /// Mean of the scales of pan and tilt that turn the right way, by their errors.
 void find_focal_length(Measurement& result) {
   constexpr double perfect = 1e-4;  // as an error: none is smaller
@@ -123,14 +140,18 @@ std::vector<Span> Meter::spans_of(const std::vector<const Frame*>& frames, const
   std::vector<Span> spans;
   std::deque<Span> run;  // frames that follow upon each other, `length` at most
   Turn turned = Turn::Zero();
-  for (const Frame* frame : frames) {
-    const auto turn = turn_in(*frame, raster, focal_length_scale);
+  std::vector<std::optional<Turn>> turns;
+  for (const Frame* frame : frames) turns.push_back(turn_in(*frame, raster, focal_length_scale));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Frame* frame = frames[i];
+    const auto& turn = turns[i];
     const double from = seconds(frame->before - zero);
-    if (!turn || (!run.empty() && run.back().to != from)) {
+    const bool follows = turn && !is_jump(turns, i, raster.width);
+    if (!follows || (!run.empty() && run.back().to != from)) {
       run.clear();
       turned.setZero();
     }
-    if (!turn) continue;
+    if (!follows) continue;
     run.push_back({from, seconds(frame->stamp - zero), *turn});
     turned += *turn;
     if (run.size() > length) {

@@ -25,16 +25,23 @@ class PictureMotion {
   const std::vector<MovedPoint>& next(const cv::Mat& grey);
 
  private:
-  cv::Point2d whole_motion();
+  /// Where the points are now, if they are near to where the motion of the whole picture puts them.
+  struct Followed {
+    cv::Point2f whole;
+    std::vector<cv::Point2f> points;
+    std::vector<unsigned char> is_found;
+    float difference = 0;  // between what is about a point before and now, levels of grey: the median
+  };
+
+  cv::Point2f correlated_motion();
+  Followed follow(const cv::Point2f& whole) const;
 
   cv::Size size_;
   cv::Mat before_, now_;              // reduced
   cv::Mat small_before_, small_now_;  // reduced further, for phase correlation
   cv::Mat correlated_before_, correlated_now_, window_;
-  cv::Point2d whole_;  // their motion
-  std::vector<cv::Point2f> points_, found_;
-  std::vector<unsigned char> is_found_;
-  std::vector<float> errors_;
+  cv::Point2f whole_;  // motion from before_ to now_
+  std::vector<cv::Point2f> points_;
   std::vector<MovedPoint> moved_;
 };
 

@@ -78,6 +78,14 @@ TEST(TestCardParameters, SizesAreNotJudgedByASpacingThatIsWrong) {
   EXPECT_THAT(refusal(tree), AllOf(HasSubstr("~spacing = 'narrow': must be a number"), Not(HasSubstr("~width"))));
 }
 
+TEST(TestCardParameters, ARandomDelayIsNotGiven) {
+  XmlRpc::XmlRpcValue tree;
+  tree["random_video_delay"] = true;
+  EXPECT_TRUE(read_test_card_parameters(tree, "crane").random_video_delay);
+  tree["video_delay"] = 0.02;
+  EXPECT_THAT(refusal(tree), HasSubstr("~video_delay: must not be given with random_video_delay"));
+}
+
 TEST(TestCardParameters, FramesMustBeFrames) {
   XmlRpc::XmlRpcValue tree;
   tree["studio_frame"] = "/studio";
