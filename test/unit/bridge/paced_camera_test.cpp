@@ -189,6 +189,18 @@ TEST(PacedCamera, OneLostSampleIsNotSeenAtADelayOfAFieldOrMore) {
   }
 }
 
+/// The sample after it arrives just before its departure, which it must not be early for from then on.
+TEST(PacedCamera, AfterALostSampleWithoutADelayDeparturesKeepTheirRhythm) {
+  auto all = samples(300);
+  all.erase(all.begin() + 150);
+  PacedCamera camera(50, {delayed(0)});
+  const auto sent = play(camera, all);
+  for (std::size_t i = 60; i + 1 < sent.size(); ++i) {
+    const double interval = static_cast<double>(sent[i + 1].at - sent[i].at);
+    EXPECT_NEAR(interval, interval > 30e6 ? 40e6 : 20e6, 0.05e6) << i;
+  }
+}
+
 TEST(PacedCamera, LateSamplesNeverMakeItGoBack) {
   auto all = samples(400);
   for (std::size_t i = 60; i < all.size(); i += 7) {
@@ -286,6 +298,24 @@ TEST(PacedCamera, AClockThatIsSetCostsLessThanASecond) {
     EXPECT_NEAR(static_cast<double>(sent.back().time - step - sent.back().at), -40e6, 1) << step;
     EXPECT_NEAR(sent.back().params.euler.x, seconds(sent.back().at - 40 * ms), 1e-6) << step;
   }
+}
+
+TEST(PacedCamera, AClockThatIsSetBackALittleIsWaitedFor) {
+  constexpr std::int64_t back = -310 * ms;
+  PacedCamera camera(50, {delayed(40)});
+  std::vector<std::int64_t> times;
+  const auto all = samples(300);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::int64_t set = i < 100 ? 0 : back;
+    while (camera.due() && *camera.due() <= steady(all[i].arrival)) {
+      const std::int64_t now = *camera.due(), at = now - steady_start + start + set;
+      camera.depart(now, at);
+      if (const auto one = camera.take(0, now, at)) times.push_back(one->time);
+    }
+    ASSERT_TRUE(camera.add(all[i].params, all[i].time + set, 0, steady(all[i].arrival), all[i].arrival + set));
+  }
+  EXPECT_GT(times.size(), 270u);
+  for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GT(times[i], times[i - 1]);
 }
 
 /// A take's time code is of any day: a sample is as new as its arrival, and the times that are sent are the take's.
