@@ -39,7 +39,7 @@ bool is_video(const Connection& connection) {
 std::string choose_video(const std::vector<Connection>& connections, const std::string& camera,
                          const std::optional<std::string>& named) {
   if (named) {
-    const std::string topic = named->rfind('/', 0) == 0 ? *named : "/" + *named;
+    std::string topic = named->rfind('/', 0) == 0 ? *named : "/" + *named;
     for (const auto& connection : connections) {
       if (connection.topic == topic && !is_video(connection)) has_topic<sensor_msgs::Image>(connections, topic);
       if (connection.topic == topic) return topic;

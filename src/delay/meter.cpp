@@ -265,9 +265,8 @@ void Meter::find_delay(const Comparison& comparison, Measurement& result) const 
   const bool wrong_signs = 2 * left(any, true) < left(right, false);
   result.delay = wrong_signs ? any : right;
   result.correlation = std::sqrt(1 - left(result.delay, wrong_signs));
-  for (int i = -steps; i <= steps; ++i) {
-    const double explained = tried[static_cast<std::size_t>(i + steps)].explained(wrong_signs);
-    result.likeness.push_back({i * step, std::sqrt(explained)});
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    result.likeness.push_back({(static_cast<double>(i) - steps) * step, std::sqrt(tried[i].explained(wrong_signs))});
   }
 }
 

@@ -94,6 +94,17 @@ class RosToTrkInManager : public InManager {
   RosToTrkInManager() : InManager("ros_to_trk", "trk_bridge/RosToTrk") {}
 };
 
+class DelayMeterInManager : public InManager {
+ protected:
+  DelayMeterInManager() : InManager("delay_meter", "trk_bridge/DelayMeter") {}
+};
+
+TEST_F(DelayMeterInManager, ReportsUntilItIsUnloaded) {
+  ASSERT_TRUE(load());
+  EXPECT_TRUE(diagnostics.reports(status_name(), 1, "nothing on " + name_space + "/params"));
+  ASSERT_TRUE(unload());
+}
+
 TEST_F(TrkToRosInManager, PublishesUntilItIsUnloadedAndCanBeLoadedAgain) {
   // Loading it again needs the port that unloading has to free.
   const ReservedPort reserved;
