@@ -74,7 +74,7 @@ void Departures::write(const wire::CameraConstants& constants) {
   changed_.notify_one();
 }
 
-void Departures::write(const wire::CameraParams& params, std::int64_t time, std::int64_t lens_time) {
+void Departures::write(const wire::CameraParams& params, const transport::RecordTime& time, std::int64_t lens_time) {
   for (const auto& destination : destinations_) {
     if (!destination.is_paced && !is_timed(destination.timing)) destination.write(params, time);
   }
@@ -86,8 +86,8 @@ void Departures::write(const wire::CameraParams& params, std::int64_t time, std:
     auto* camera = camera_of(params.id);
     if (camera == nullptr) return;
     const bool was_due = camera->paced.due().has_value();
-    const bool is_sound = camera->paced.add(params, time, lens_time, now, clock).has_value();
-    if (!is_sound) camera->as_it_came.emplace(params, time);
+    const bool is_sound = camera->paced.add(params, time.nanoseconds, lens_time, now, clock).has_value();
+    if (!is_sound) camera->as_it_came.emplace(params, time.nanoseconds);
     if (was_due && is_sound && !camera->paced.waits(now)) return;
     wakes_ = true;
   }

@@ -27,8 +27,9 @@ struct Destination {
   OutputTiming timing;
   /// Whether a timer sends, at an even rhythm. Always so where the timing is not 0.
   bool is_paced = false;
-  /// Called in the thread of the timer where it is paced, else in the caller's. `time` as in Sink::write.
-  std::function<void(const wire::Record&, std::int64_t time)> write;
+  /// Called in the thread of the timer where it is paced, else in the caller's. A
+  /// time code is that of the record as it came; one that was interpolated has none.
+  std::function<void(const wire::Record&, const transport::RecordTime&)> write;
   LossListener lose;  ///< records of too many ids, which are not sent
 };
 
@@ -55,8 +56,8 @@ class Departures {
   Departures& operator=(const Departures&) = delete;
 
   void write(const wire::CameraConstants&);
-  /// `time` is when the parameters were true, ns, 0: now; `lens_time` likewise for their lens, 0: the same.
-  void write(const wire::CameraParams&, std::int64_t time = 0, std::int64_t lens_time = 0);
+  /// `lens_time` is when the lens of the parameters was true, ns; 0: as `time`.
+  void write(const wire::CameraParams&, const transport::RecordTime& time = {}, std::int64_t lens_time = 0);
   void write(const OutgoingSet&);
   /// Sends what is still to come of the samples that it has, which takes the longest delay, and ends the timer.
   void finish();

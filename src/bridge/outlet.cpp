@@ -210,7 +210,7 @@ Outlet::Outlet(const transport::SinkEndpoint& endpoint, const OutletOptions& opt
 Outlet::~Outlet() { static_cast<void>(close()); }
 
 template <typename Record, typename... Time>
-void Outlet::pass(const Record& record, Time... time) {
+void Outlet::pass(const Record& record, const Time&... time) {
   if (is_abandoned_) return work_->tell({record.id, SinkFault{SinkReason::no_answer}});
   // Once it is closed, the sink says so.
   if (!thread_.joinable()) return work_->writer().write(record, time...);
@@ -218,8 +218,8 @@ void Outlet::pass(const Record& record, Time... time) {
 }
 
 void Outlet::write(const wire::CameraConstants& constants) { pass(constants); }
-void Outlet::write(const wire::CameraParams& params, std::int64_t time) { pass(params, time); }
-void Outlet::write(const wire::Record& record, std::int64_t time) {
+void Outlet::write(const wire::CameraParams& params, const transport::RecordTime& time) { pass(params, time); }
+void Outlet::write(const wire::Record& record, const transport::RecordTime& time) {
   if (const auto* params = std::get_if<wire::CameraParams>(&record)) return write(*params, time);
   write(std::get<wire::CameraConstants>(record));
 }

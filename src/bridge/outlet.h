@@ -51,8 +51,8 @@ class Outlet {
 
   /// See OutletWriter.
   void write(const wire::CameraConstants&);
-  void write(const wire::CameraParams&, std::int64_t time = 0);
-  void write(const wire::Record&, std::int64_t time = 0);
+  void write(const wire::CameraParams&, const transport::RecordTime& time = {});
+  void write(const wire::Record&, const transport::RecordTime& time = {});
   /// From now on nothing is taken. Does not wait: several outlets that are to be closed end at the same time.
   void finish();
   /// Writes what is queued, then ends the sink in order. Where a recording's open, write or close, or all that is left
@@ -80,7 +80,7 @@ class Outlet {
   class Work;
 
   template <typename Record, typename... Time>
-  void pass(const Record&, Time... time);
+  void pass(const Record&, const Time&... time);
   void abandon();
 
   const std::string url_;

@@ -19,7 +19,7 @@ OutletQueue::OutletQueue(std::size_t capacity, WhenFull when_full, std::function
   if (when_full == WhenFull::drop_oldest) kept_constants_.reserve(OutletWriter::most_ids);
 }
 
-Pushed OutletQueue::push(const wire::Record& record, std::int64_t time) {
+Pushed OutletQueue::push(const wire::Record& record, const transport::RecordTime& time) {
   auto pushed = Pushed::queued;
   {
     std::unique_lock<std::mutex> lock(mutex_);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "trk_bridge/transport/sink.h"
 #include "trk_bridge/wire/record.h"
 
 namespace trk_bridge::bridge {
@@ -32,7 +33,7 @@ enum class Pushed : std::uint8_t {
 /// One that is on its way.
 struct QueuedRecord {
   wire::Record record;
-  std::int64_t time = 0;  ///< when it was true, ns since 1970 UTC; 0: unknown
+  transport::RecordTime time;
 };
 
 /// What a queue holds and has lost. Trivially copyable.
@@ -49,7 +50,7 @@ class OutletQueue {
   /// `capacity` is in records, and more than 0. `may_wait` is for WhenFull::wait, and asked again and again.
   OutletQueue(std::size_t capacity, WhenFull, std::function<bool()> may_wait = {});
 
-  [[nodiscard]] Pushed push(const wire::Record&, std::int64_t time = 0);
+  [[nodiscard]] Pushed push(const wire::Record&, const transport::RecordTime& time = {});
   /// The oldest record; waits for one. None once the queue is closed and empty.
   [[nodiscard]] std::optional<QueuedRecord> pop();
   /// Likewise; none, too, when none has come for so long.

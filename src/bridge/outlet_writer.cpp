@@ -63,7 +63,7 @@ void OutletWriter::refuse(const wire::CameraConstants& constants, const Loss::Ca
   lose(constants.id, cause);
 }
 
-void OutletWriter::write(const wire::CameraParams& params, std::int64_t time) {
+void OutletWriter::write(const wire::CameraParams& params, const transport::RecordTime& time) {
   auto* camera = find(params.id);
   if (const auto outgoing = converted(params, camera)) {
     const auto constants_written = constants_before_set(camera);
@@ -108,7 +108,7 @@ transport::Written OutletWriter::constants_before_set(Camera* camera) {
 }
 
 template <typename Record, typename... Time>
-transport::Written OutletWriter::put(Record record, Time... time) {
+transport::Written OutletWriter::put(Record record, const Time&... time) {
   const auto own_id = record.id;
   record.id = sent_id(form_, own_id);
   statistics_.last_id = record.id;

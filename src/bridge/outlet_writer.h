@@ -77,8 +77,8 @@ class OutletWriter {
   /// there is a format, constants that leave no picture are not sent, and parameters are converted without any until
   /// others come; a datagram sink goes on repeating the last sound ones.
   void write(const wire::CameraConstants&);
-  /// Converts and sends them. Without a format all numbers stay as they came. `time` as in Sink::write.
-  void write(const wire::CameraParams&, std::int64_t time = 0);
+  /// Converts and sends them. Without a format all numbers stay as they came.
+  void write(const wire::CameraParams&, const transport::RecordTime& time = {});
   /// Sink::prepare.
   void prepare() { sink_->prepare(); }
   /// Ends the sink in order.

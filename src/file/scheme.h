@@ -38,7 +38,7 @@ struct SourceSettings {
 /// `file:PATH?timecode=…&rate=…&number=1&overwrite=1`, to record a take.
 struct SinkSettings {
   RecordingName path;
-  std::optional<base::TimeCode> time_code;  ///< of the first field; default its time of day, UTC
+  std::optional<base::TimeCode> time_code;  ///< of the first field; default its own, else its time of day, UTC
   double rate = 50;                         ///< Hz, 1 to 200, of the default time code
   bool number = false;                      ///< the next free number in the name
   bool overwrite = false;                   ///< not together with `number`

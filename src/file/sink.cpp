@@ -46,8 +46,9 @@ class FileSink final : public transport::Sink {
 
   /// Before the first field, which is of this time; every rate that the settings allow has a code for every time of the
   /// day.
-  void set_time_code(std::int64_t time) {
-    writer_.set_time_code(settings_.time_code.value_or(*base::time_code_at(time % day, settings_.rate)));
+  void set_time_code(std::int64_t time, const std::optional<base::CountedTimeCode>& of_source = {}) {
+    const auto of_day = [&] { return *base::time_code_at(time % day, settings_.rate); };
+    writer_.set_time_code(settings_.time_code ? *settings_.time_code : of_source ? of_source->code : of_day());
   }
   Written open(std::int64_t time);
   Written open_when_due(std::int64_t time);
@@ -124,11 +125,11 @@ void FileSink::get_ready() {
 
 Written FileSink::put(const wire::CameraParams& params) {
   if (!writer_.has_constants()) return refused(SinkReason::no_constants);
-  const std::int64_t time = this->time() > 0 ? this->time() : base::wall_now();
+  const std::int64_t time = this->time().nanoseconds > 0 ? this->time().nanoseconds : base::wall_now();
   if (!writer_.is_open()) {
     if (auto opened = open_when_due(time); !opened) return opened;
   }
-  if (!writer_.has_fields()) set_time_code(time);
+  if (!writer_.has_fields()) set_time_code(time, this->time().time_code);
   return writer_.write(params);
 }
 

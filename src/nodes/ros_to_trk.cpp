@@ -21,7 +21,7 @@ RosToTrk::RosToTrk(const ::ros::NodeHandle& node, const ::ros::NodeHandle& priva
   for (const auto& sink : sinks_.all()) {
     destinations.push_back({bridge::timing_of(sink->form()),
                             parameters.pace,
-                            [one = sink.get()](const auto& record, auto time) { one->write(record, time); },
+                            [one = sink.get()](const auto& record, const auto& time) { one->write(record, time); },
                             {}});
   }
   const bool is_tf = parameters.input == ros1::OutgoingInput::tf;
@@ -29,7 +29,7 @@ RosToTrk::RosToTrk(const ::ros::NodeHandle& node, const ::ros::NodeHandle& priva
     sent_.emplace(node, parameters);
     destinations.push_back({bridge::timing_of(parameters.form),
                             parameters.pace,
-                            [this](const auto& record, auto time) { sent_->write(record, time); },
+                            [this](const auto& record, const auto& time) { sent_->write(record, time.nanoseconds); },
                             {}});
   }
   bridge::DepartureOptions options;

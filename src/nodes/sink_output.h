@@ -24,7 +24,7 @@ class SinkOutput {
   SinkOutput(const SinkOutput&) = delete;
   SinkOutput& operator=(const SinkOutput&) = delete;
 
-  void write(const wire::Record& record, std::int64_t time) { outlet_.write(record, time); }
+  void write(const wire::Record& record, const transport::RecordTime& time) { outlet_.write(record, time); }
   /// Nothing is written any more; does not wait.
   void finish() { outlet_.finish(); }
 

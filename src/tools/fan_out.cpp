@@ -65,7 +65,7 @@ bridge::Departures& FanOut::departures() {
   for (std::size_t sink = 0; sink < outlets_.size(); ++sink) {
     auto& outlet = *outlets_[sink];
     destinations.push_back({bridge::timing_of(outlet.form()), false,
-                            [&outlet](const auto& record, std::int64_t time) { outlet.write(record, time); },
+                            [&outlet](const auto& record, const auto& time) { outlet.write(record, time); },
                             [this, sink](const bridge::Loss& loss) { count(sink, loss); }});
   }
   bridge::DepartureOptions options;
@@ -73,7 +73,9 @@ bridge::Departures& FanOut::departures() {
   return departures_.emplace(std::move(options), std::move(destinations));
 }
 
-void FanOut::write(const wire::CameraParams& params, std::int64_t time) { departures().write(params, time); }
+void FanOut::write(const wire::CameraParams& params, const transport::RecordTime& time) {
+  departures().write(params, time);
+}
 
 void FanOut::write(const wire::CameraConstants& constants) { departures().write(constants); }
 

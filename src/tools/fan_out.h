@@ -28,8 +28,8 @@ class FanOut {
   /// a lead needs a source that is live, and is refused where it may wait.
   void add(const transport::SinkEndpoint&, const transport::SinkForm& defaults);
 
-  /// `time` as in Sink::write. Sinks are added before.
-  void write(const wire::CameraParams&, std::int64_t time = 0);
+  /// Sinks are added before.
+  void write(const wire::CameraParams&, const transport::RecordTime& time = {});
   void write(const wire::CameraConstants&);
   /// Writes what is queued or delayed and closes all, at the same time.
   void close();

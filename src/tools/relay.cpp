@@ -17,7 +17,7 @@ class Relay final : public cli::Listener {
   bool on_sample(const transport::Sample& sample) override {
     tally_.add(sample);
     if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) {
-      sinks_.write(*params, sample.arrival);
+      sinks_.write(*params, {sample.arrival, sample.time_code});
     } else {
       sinks_.write(std::get<wire::CameraConstants>(sample.record));
     }

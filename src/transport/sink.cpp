@@ -59,7 +59,7 @@ void Sink::prepare() {
   if (!closed_) get_ready();
 }
 
-Written Sink::write(const wire::CameraParams& params, std::int64_t time) {
+Written Sink::write(const wire::CameraParams& params, const RecordTime& time) {
   time_ = time;
   return counted(closed_ ? Written(refused(SinkReason::closed)) : put(params), counts_.params);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <tl/expected.hpp>
@@ -48,6 +49,16 @@ struct SinkStatistics {
   std::uint64_t errors = 0;
 };
 
+/// When a record was true.
+struct RecordTime {
+  // NOLINTNEXTLINE(google-explicit-constructor): a time is one without a code
+  RecordTime(std::int64_t since_1970 = 0, std::optional<base::CountedTimeCode> code = {}) noexcept
+      : nanoseconds(since_1970), time_code(code) {}
+
+  std::int64_t nanoseconds;  ///< since 1970 UTC; 0: now
+  std::optional<base::CountedTimeCode> time_code;
+};
+
 /// What a write or a close gives.
 using Written = tl::expected<void, SinkFault>;
 /// For functions that give a fault.
@@ -72,8 +83,8 @@ class Sink {
   /// function called again, tries again. Does nothing where it is done.
   void prepare();
   /// Writes one set of parameters; a datagram sink sends the constants of the same id before it when their period has
-  /// passed. `time` is when they were true, ns since 1970 UTC; 0: now.
-  [[nodiscard]] Written write(const wire::CameraParams&, std::int64_t time = 0);
+  /// passed.
+  [[nodiscard]] Written write(const wire::CameraParams&, const RecordTime& time = {});
   [[nodiscard]] Written write(const wire::CameraConstants&);
   /// Ends in order: a file gets its final name. Closing again does nothing. A sink that is destroyed without it ends
   /// likewise, but cannot report how that went.
@@ -93,8 +104,8 @@ class Sink {
   void count_constants() noexcept { ++counts_.constants; }
   /// Counts parameters that went out though put() gives a fault.
   void count_params() noexcept { ++counts_.params; }
-  /// Of the parameters that put() is given, ns since 1970 UTC; 0: now.
-  std::int64_t time() const noexcept { return time_; }
+  /// Of the parameters that put() is given.
+  const RecordTime& time() const noexcept { return time_; }
 
  private:
   virtual void get_ready() {}
@@ -104,7 +115,7 @@ class Sink {
   Written counted(const Written&, std::uint64_t& good) noexcept;
 
   bool closed_ = false;
-  std::int64_t time_ = 0;
+  RecordTime time_;
   SinkStatistics counts_;
   base::Snapshot<SinkStatistics> published_;
 };

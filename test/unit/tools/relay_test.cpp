@@ -332,6 +332,19 @@ TEST_F(RelayTest, ATakeThatIsPlayedAsFastAsPossibleLosesNothing) {
   EXPECT_EQ(slow.count(), 2 * sets);
 }
 
+TEST_F(RelayTest, ACopyOfATakeHasItsTimeCode) {
+  const test::TemporaryDirectory folder;
+  const std::string take = folder / "take.trk", copy = folder / "copy.trk";
+  test::write_text(take,
+                   "DMC01\n10:59:59;29:2\n1920 1080 14 2 12 4 27 18 27 18\n1 1 2 3 4 5 6 50 0 0 0 0 5 8 1\n"
+                   "1 1 2 3 4 5 6 50 0 0 0 0 5 8 2\n");
+  const auto source = endpoints::parse_source("file:" + take + "?rate=59.94&speed=0&time=now").value().open(50);
+  FanOut sinks(err, [] { return true; });
+  sinks.add(endpoints::parse_sink("file:" + copy).value(), {});
+  EXPECT_EQ(relay(*source, sinks), cli::exit_good) << err.str();
+  EXPECT_THAT(test::read_text(copy), HasSubstr("\n10:59:59;29:2\n"));
+}
+
 TEST_F(RelayTest, SetsThatNewerOnesReplaceAreReportedAndNoFailure) {
   constexpr std::uint64_t sets = 500;
   test::Gate slow;
