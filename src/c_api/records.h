@@ -108,8 +108,9 @@ inline unsigned format_of(const NativeParams& n) noexcept { return static_cast<u
 
 /// Makes what the format does not select of the transform zero.
 inline void clear_unselected(NativeParams& n) noexcept {
-  const std::uint64_t kept = wire::has(format_of(n), wire::euler) ? 0 : ~std::uint64_t{0};
-  for (std::size_t i = 7; i < 17; ++i) n[i] &= kept;
+  if (!wire::has(format_of(n), wire::euler)) return;
+#pragma GCC unroll 10
+  for (std::size_t i = 7; i < 17; ++i) n[i] = 0;
 }
 
 /// After clear_unselected().
@@ -125,7 +126,9 @@ inline bool is_finite(const NativeParams& n) noexcept {
 
 inline NativeParams to_native(const trkCameraParams& c) noexcept {
   NativeParams n;
-  std::memcpy(n.data(), &c, sizeof n);
+  // The counter apart: programs have just raised it, and a wider load would wait for that.
+  std::memcpy(n.data(), &c, sizeof n - sizeof n[0]);
+  n[24] = c.counter;
 #ifndef TRK_IDENTIFIED
   n[0] = std::uint64_t{c.format} << 32U;
 #endif

@@ -234,7 +234,7 @@ tl::expected<const SegmentLayout*, transport::Fault> Link::layout_of_params(cons
 tl::expected<const SegmentLayout*, transport::Fault> Link::known_layout_of_params(const RecordImage& image) noexcept {
   const SegmentLayout& own = segment_->layout();
   const std::string_view head = image.view().substr(0, 8);
-  if (known_head_ && std::memcmp(known_head_->data(), head.data(), head.size()) == 0) return &own;
+  if (known_head_ && std::memcmp(known_head_->data(), head.data(), sizeof *known_head_) == 0) return &own;
   known_head_.reset();
   const auto layout = layout_of_params(image);
   if (layout && *layout == &own && writer_layout_ == &own) std::memcpy(known_head_.emplace().data(), head.data(), 8);
