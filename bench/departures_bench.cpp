@@ -64,9 +64,9 @@ void measure(int seconds, std::int64_t delay, std::int64_t jitter) {
   Destination destination;
   destination.timing.delay = {delay, delay, delay};
   destination.is_paced = true;
-  destination.write = [&](const auto&, std::int64_t time) {
+  destination.write = [&](const auto&, const trk_bridge::transport::RecordTime& time) {
     at.push_back(static_cast<double>(steady_now()) / 1e6);
-    age.push_back(static_cast<double>(wall_now() - time) / 1e6);
+    age.push_back(static_cast<double>(wall_now() - time.nanoseconds) / 1e6);
   };
   std::mt19937 random(1);
   std::uniform_int_distribution<std::int64_t> late(0, jitter);

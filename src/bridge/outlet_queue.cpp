@@ -84,7 +84,7 @@ std::optional<QueuedRecord> OutletQueue::pop(std::chrono::nanoseconds wait) {
 std::optional<QueuedRecord> OutletQueue::take(std::unique_lock<std::mutex>& lock) {
   if (size() == 0) return std::nullopt;
   if (!kept_constants_.empty()) {
-    const QueuedRecord record{kept_constants_.front()};
+    const QueuedRecord record{kept_constants_.front(), {}};
     kept_constants_.erase(kept_constants_.begin());
     return record;
   }

@@ -108,7 +108,7 @@ class OutletWriter {
   transport::Written constants_before_set(Camera*);
   /// With the id of the form.
   template <typename Record, typename... Time>
-  transport::Written put(Record, Time...);
+  transport::Written put(Record, const Time&...);
   void lose(std::uint32_t id, const Loss::Cause&) const;
   void publish() noexcept;
 

@@ -25,9 +25,9 @@ class Inbox {
  public:
   Destination destination(const OutputTiming& timing = {}, bool is_paced = false) {
     return {timing, is_paced,
-            [this](const wire::Record& record, std::int64_t time) {
+            [this](const wire::Record& record, const transport::RecordTime& time) {
               const std::lock_guard<std::mutex> lock(mutex_);
-              records_.push_back({record, time, base::wall_now()});
+              records_.push_back({record, time.nanoseconds, base::wall_now()});
               if (std::this_thread::get_id() == test_) ++in_caller_;
             },
             [this](const Loss& loss) { losses.push_back(loss); }};

@@ -130,7 +130,7 @@ TEST(OutletQueue, WhoMayNotWaitAnyMoreDoesNot) {
 TEST(OutletQueue, RecordsKeepTheirTime) {
   OutletQueue queue(2, WhenFull::fail);
   ASSERT_EQ(queue.push(params(1), 1234), Pushed::queued);
-  EXPECT_EQ(queue.pop()->time, 1234);
+  EXPECT_EQ(queue.pop()->time.nanoseconds, 1234);
 }
 
 TEST(OutletQueue, APopThatWaitsForSomeTimeOnlySaysNoneAndIsNotTheEnd) {

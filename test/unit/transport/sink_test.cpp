@@ -64,7 +64,7 @@ TEST(Sink, KnowsTheTimeOfTheParametersThatItWrites) {
 
    private:
     Written put(const wire::CameraParams&) override {
-      written = time();
+      written = time().nanoseconds;
       return {};
     }
     Written put(const wire::CameraConstants&) override { return {}; }

@@ -53,7 +53,7 @@ TEST(DatagramDecoder, OneSampleADatagram) {
   EXPECT_EQ(decoder.next(sample, fault), Next::none) << "nothing was begun";
   sample.has_counter = sample.has_lens = false;
   sample.sample_time = 5;
-  sample.time_code = base::TimeCode{};
+  sample.time_code = base::CountedTimeCode{};
   sample.arrival = 7;
   ASSERT_EQ(first_of(decoder, test::datagram(test::params(12, 3)), sender(1), sample, fault), Next::sample);
   EXPECT_EQ(std::get<wire::CameraParams>(sample.record), test::params(12, 3));
