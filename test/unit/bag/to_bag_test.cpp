@@ -224,7 +224,7 @@ TEST_F(ToBag, WrongOptionsAreNamedAndNothingStays) {
   options.field_rate = 0;
   EXPECT_THAT(refused(options), HasSubstr("--field-rate = 0: must be 1 to 1000 Hz"));
   options = {};
-  options.field_rate = 24;
+  options.field_rate = 12;
   EXPECT_THAT(refused(options), HasSubstr("10:20:30:12:1"));
   options = {};
   options.start = 4'294'967'295'990'000'000;
