@@ -63,6 +63,7 @@ struct RecordTime {
 using Written = tl::expected<void, SinkFault>;
 /// For functions that give a fault.
 inline tl::unexpected<SinkFault> refused(SinkReason reason) noexcept { return tl::unexpected(SinkFault{reason}); }
+/// Likewise, of an errno.
 inline tl::unexpected<SinkFault> refused_by_system(int error_number) noexcept {
   return tl::unexpected(SinkFault{SinkReason::system, {}, error_number});
 }
