@@ -201,7 +201,7 @@ TEST(Allocation, DoesNotHappenForSetsThatAreDelayed) {
       (void)camera.add(params, now - i % 3 * 15'000'000, 0, now, now);
       if (!camera.due()) continue;
       camera.depart(*camera.due(), *camera.due());
-      for (const std::size_t output : {0, 1}) sent += camera.take(output, now + 100'000, now + 100'000) ? 1 : 0;
+      for (const std::size_t output : {0U, 1U}) sent += camera.take(output, now + 100'000, now + 100'000) ? 1 : 0;
     }
   });
   EXPECT_GT(sent, 1000);
