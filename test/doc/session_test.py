@@ -63,7 +63,9 @@ class Sessions(unittest.TestCase):
 
     def test_nothing_is_left_behind(self):
         self.terminals.LEAVING = 0.2
-        self.terminals.run("setsid sleep 1000 >/dev/null 2>&1 & echo $! >pid")
+        # In the moment of becoming another program, a process has neither environment nor command line.
+        self.terminals.run("setsid sleep 1000 >/dev/null 2>&1 & echo $! >pid; "
+                           "until [ \"$(cat /proc/$!/comm)\" = sleep ]; do sleep 0.01; done")
         with self.refused("left behind: sleep 1000"):
             self.terminals.end_all()
         command_line = pathlib.Path("/proc", (self.folder / "pid").read_text().strip(), "cmdline")
