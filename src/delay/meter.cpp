@@ -65,6 +65,16 @@ void find_focal_length(Measurement& result) {
   result.focal_length_error = 1 / std::sqrt(weights);
 }
 
+std::vector<Speeds> speeds_of(const Comparison& comparison, double delay) {
+  std::vector<Speeds> speeds;
+  for (const Span& span : comparison.spans()) {
+    const double time = span.to - span.from;
+    speeds.push_back({span.to - comparison.spans().front().to, span.turn / time, comparison.tracking(span, 0) / time,
+                      comparison.tracking(span, delay) / time});
+  }
+  return speeds;
+}
+
 }  // namespace
 
 const char* describe(CannotTell reason) noexcept {
@@ -163,6 +173,17 @@ std::vector<Span> Meter::spans_of(const std::vector<const Frame*>& frames, const
   return spans;
 }
 
+Path Meter::tracked_path(const camera::Raster& raster) const {
+  Path path;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const Sample &now = samples_[i], &before = samples_[i == 0 ? 0 : i - 1];
+    const double image_distance = (before.lens.image_distance + now.lens.image_distance) / 2;
+    path.add(seconds(now.stamp - samples_.front().stamp),
+             turn_between(before.rotation, now.rotation).cwiseProduct(pixels(raster, image_distance)));
+  }
+  return path;
+}
+
 Measurement Meter::measure() const {
   Measurement result;
   const auto cannot = [&](CannotTell reason) {
@@ -177,13 +198,7 @@ Measurement Meter::measure() const {
   const camera::Raster raster = camera::raster_of(*converter_.incoming());
   const std::int64_t zero = samples_.front().stamp;
 
-  Path path;
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const Sample &now = samples_[i], &before = samples_[i == 0 ? 0 : i - 1];
-    const double image_distance = (before.lens.image_distance + now.lens.image_distance) / 2;
-    path.add(seconds(now.stamp - zero),
-             turn_between(before.rotation, now.rotation).cwiseProduct(pixels(raster, image_distance)));
-  }
+  const Path path = tracked_path(raster);
   result.tracking_interval = path.interval();
 
   // A few steps more than delays that are tried, for slopes and parabolas; and the span that ends with a frame.
@@ -234,12 +249,7 @@ Measurement Meter::measure() const {
   if (result.focal_length_scale && result.focal_length_error < worst_focal_length_error) {
     judge(Comparison(path, spans_of(frames, raster, length, *result.focal_length_scale)).sums(result.delay));
   }
-  for (const Span& span : comparison.spans()) {
-    const double time = span.to - span.from;
-    result.speeds.push_back({span.to - comparison.spans().front().to, span.turn / time,
-                             comparison.tracking(span, 0) / time, comparison.tracking(span, result.delay) / time});
-  }
-
+  result.speeds = speeds_of(comparison, result.delay);
   if (result.correlation < least_correlation) return cannot(CannotTell::disagree);
   if (!(result.accuracy < worst_accuracy)) return cannot(CannotTell::too_even);
   if (std::abs(result.delay) > most_delay_ - step) return cannot(CannotTell::out_of_range);

@@ -117,6 +117,8 @@ class Meter {
   /// Of `length` frames each.
   std::vector<Span> spans_of(const std::vector<const Frame*>&, const camera::Raster&, std::size_t length,
                              double focal_length_scale) const;
+  /// Over seconds from the first sample on, in the pixels of Speeds.
+  Path tracked_path(const camera::Raster&) const;
   void find_delay(const Comparison&, Measurement&) const;
 
   double most_delay_;
