@@ -88,7 +88,7 @@ class Meter {
   /// Delays from -`most_delay` to `most_delay` (s) are tried.
   explicit Meter(double most_delay = 0.5) : most_delay_(most_delay) {}
 
-  /// The camera's constants, needed for anything to be told. Unsound ones are not used.
+  /// The camera's constants, without which there is no result. Unsound ones are not used.
   camera::ConstantsChange use(const wire::CameraConstants& constants) { return converter_.use(constants); }
   /// A sample of tracking, in any format. `stamp` is ns since 1970; one that is not later than the last forgets all of
   /// tracking. The error is why it was left out.

@@ -1,4 +1,4 @@
-// What goes wrong on the way must not reach tf, and must be told.
+// What goes wrong on the way must not reach tf, and must be reported.
 #include <sensor_msgs/CameraInfo.h>
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
