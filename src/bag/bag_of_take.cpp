@@ -221,16 +221,16 @@ void record(const file::Take& take, const Schedule& schedule, TakeCamera& camera
   const auto& messages = camera.messages();
   recording.write("/tf_static", camera.optical_transform(begin), /*is_latched=*/true);
   if (camera.process(take.constants, begin).constants) {
-    recording.write(camera.topic("constants"), ros1::to_time(begin), messages.constants(), /*is_latched=*/true);
+    recording.write(camera.topic("constants"), ros1::to_time(begin), *messages.constants(), /*is_latched=*/true);
   }
   for (std::size_t i = 0; i < take.params.size(); ++i) {
     run.at(static_cast<double>(i) / static_cast<double>(take.params.size()));
     const auto update = camera.process(take.params[i], schedule.at(i), schedule.time_code(i));
     const auto stamp = ros1::to_time(update.stamp);
     if (update.pose) recording.write("/tf", messages.transform());
-    if (update.params) recording.write(camera.topic("params"), stamp, messages.params());
-    if (update.calibration) recording.write(camera.topic("camera_info"), stamp, messages.camera_info());
-    if (update.time_code) recording.write(camera.topic("time_code"), stamp, messages.time_code());
+    if (update.params) recording.write(camera.topic("params"), stamp, *messages.params());
+    if (update.calibration) recording.write(camera.topic("camera_info"), stamp, *messages.camera_info());
+    if (update.time_code) recording.write(camera.topic("time_code"), stamp, *messages.time_code());
   }
 }
 

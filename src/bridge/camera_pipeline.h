@@ -73,6 +73,8 @@ struct CameraUpdate {
   std::optional<camera::Calibration> calibration;  ///< of CameraInfo
   std::optional<Eigen::Isometry3d> pose;           ///< studio_T_camera, m
   std::optional<base::CountedTimeCode> time_code;  ///< of parameters, where the protocol has one
+
+  bool is_empty() const noexcept { return stamp == 0 && !constants; }
 };
 
 /// Not synchronised: one thread at a time. Never allocates.

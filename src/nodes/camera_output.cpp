@@ -24,34 +24,46 @@ CameraOutput::CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&
   time_code_ = node.advertise<trk_bridge::TimeCode>("time_code", queue);
   if (parameters.options.publish_camera_info)
     camera_info_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", queue);
-  publish(pipeline_.initial());
-}
-
-void CameraOutput::process(const transport::Sample& sample, std::int64_t now) {
-  publish(pipeline_.process(sample, now));
-}
-
-void CameraOutput::publish(const bridge::CameraUpdate& update) {
-  messages_.make(update);
-  if (update.pose) transforms_.sendTransform(messages_.transform());
-  if (update.params) params_.publish(messages_.params());
-  if (update.calibration) camera_info_.publish(messages_.camera_info());
-  if (update.constants) constants_.publish(messages_.constants());
-  if (update.time_code) time_code_.publish(messages_.time_code());
   statistics_.store(pipeline_.statistics());
-  publish_markers(update);
+  make(pipeline_.initial());
+  publish();
+}
+
+bridge::CameraUpdate CameraOutput::process(const transport::Sample& sample, std::int64_t now) {
+  auto update = pipeline_.process(sample, now);
+  statistics_.store(pipeline_.statistics());
+  return update;
+}
+
+void CameraOutput::make(const bridge::CameraUpdate& update) {
+  update_ = update;
+  is_ready_ = true;
+  messages_.make(update);
+}
+
+const geometry_msgs::TransformStamped* CameraOutput::transform() const noexcept {
+  return is_ready_ && update_.pose ? &messages_.transform() : nullptr;
+}
+
+void CameraOutput::publish() {
+  if (update_.params) params_.publish(messages_.params());
+  if (update_.calibration) camera_info_.publish(messages_.camera_info());
+  if (update_.constants) constants_.publish(messages_.constants());
+  if (update_.time_code) time_code_.publish(messages_.time_code());
+  publish_markers();
+  is_ready_ = false;
 }
 
 /// Last of all: whoever looks at markers can wait.
-void CameraOutput::publish_markers(const bridge::CameraUpdate& update) {
+void CameraOutput::publish_markers() {
   if (!markers_ || marker_topic_.getNumSubscribers() == 0) return;
-  if (update.calibration) {
+  if (update_.calibration) {
     // Without params the focus is not known.
-    const double focdist = update.params ? update.params->focdist : 0;
-    marker_topic_.publish(markers_->draw(messages_.camera_info(), focdist));
+    const double focdist = update_.params ? update_.params->focdist : 0;
+    marker_topic_.publish(markers_->draw(*messages_.camera_info(), focdist));
     marker_statistics_.store(markers_->statistics());
-  } else if (update.stamp > 0 && markers_->visible() && !pipeline_.statistics().has_camera_info) {
-    marker_topic_.publish(markers_->remove(ros1::to_time(update.stamp)));
+  } else if (update_.stamp > 0 && markers_->visible() && !pipeline_.statistics().has_camera_info) {
+    marker_topic_.publish(markers_->remove(ros1::to_time(update_.stamp)));
   }
 }
 

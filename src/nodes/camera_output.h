@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <optional>
 
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include "bridge/camera_pipeline.h"
 #include "bridge/diagnostics.h"
@@ -18,7 +18,8 @@
 
 namespace trk_bridge::nodes {
 
-/// process() belongs to one reader's thread, describe() to the diagnostics' one.
+/// Publishing is apart from processing, so that the tf of several cameras can go out as one message, before the rest.
+/// All but describe() belongs to one reader's thread, describe() to the diagnostics' one.
 class CameraOutput {
  public:
   /// Advertises `params`, `constants`, `camera_info` and `time_code` in the namespace of `node`, and publishes the
@@ -28,8 +29,16 @@ class CameraOutput {
                const ::ros::Publisher& markers);
 
   bool wants(const wire::Record& record) const noexcept { return pipeline_.wants(record); }
-  /// Publishes what comes of a sample before it returns. `now` is the steady clock's time of receipt, ns.
-  void process(const transport::Sample&, std::int64_t now);
+  /// What comes of a sample. `now` is the steady clock's time of receipt, ns.
+  bridge::CameraUpdate process(const transport::Sample&, std::int64_t now);
+  /// Makes the messages of an update that is not empty. Those of the one before must have been published.
+  void make(const bridge::CameraUpdate&);
+  /// Whether there is anything to publish.
+  bool is_ready() const noexcept { return is_ready_; }
+  /// The transform among it; null: none.
+  const geometry_msgs::TransformStamped* transform() const noexcept;
+  /// Publishes it, but for the transform, before it returns.
+  void publish();
 
   /// `report` is of this moment but for the camera's part, which is added here. Findings of a kind that was not met
   /// before go to the log, too.
@@ -38,16 +47,16 @@ class CameraOutput {
   const ros1::CameraParameters& parameters() const noexcept { return parameters_; }
 
  private:
-  void publish(const bridge::CameraUpdate&);
-  void publish_markers(const bridge::CameraUpdate&);
+  void publish_markers();
 
   const ros1::CameraParameters parameters_;
   bridge::CameraPipeline pipeline_;
-  ros1::CameraMessages messages_;
+  bridge::CameraUpdate update_;
+  bool is_ready_ = false;
+  ros1::CameraMessages messages_;  // of update_
   std::optional<ros1::CameraMarkers> markers_;
   double field_rate_;
   ::ros::Publisher params_, constants_, camera_info_, time_code_, marker_topic_;
-  tf2_ros::TransformBroadcaster transforms_;
   base::Snapshot<bridge::CameraStatistics> statistics_;
   base::Snapshot<bridge::MarkerStatistics> marker_statistics_;
   StatusReporter<bridge::CameraReport> reporter_;

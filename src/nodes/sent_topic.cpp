@@ -11,9 +11,8 @@ namespace trk_bridge::nodes {
 SentTopic::SentTopic(::ros::NodeHandle node, const ros1::RosToTrkParameters& parameters)
     : form_(parameters.form),
       converter_(parameters.form.format),
-      topic_(node.advertise<trk_bridge::CameraParams>("sent", static_cast<std::uint32_t>(parameters.queue_size))) {
-  message_.header.frame_id = parameters.studio_frame;
-}
+      messages_(ros1::in_frame<trk_bridge::CameraParams>(parameters.studio_frame)),
+      topic_(node.advertise<trk_bridge::CameraParams>("sent", static_cast<std::uint32_t>(parameters.queue_size))) {}
 
 void SentTopic::write(const wire::Record& record, std::int64_t time) {
   if (const auto* constants = std::get_if<wire::CameraConstants>(&record)) {
@@ -30,9 +29,10 @@ void SentTopic::write(const wire::Record& record, std::int64_t time) {
   // Sinks without a form of their own report why.
   if (!converted) return;
   converted->id = bridge::sent_id(form_, params.id);
-  ros1::to_msg(*converted, message_);
-  message_.header.stamp = ros1::to_time(time);
-  topic_.publish(message_);
+  auto& message = messages_.renew();
+  ros1::to_msg(*converted, message);
+  message.header.stamp = ros1::to_time(time);
+  topic_.publish(messages_.current());
 }
 
 }  // namespace trk_bridge::nodes

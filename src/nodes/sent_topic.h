@@ -8,6 +8,7 @@
 #include <ros/publisher.h>
 #include <trk_bridge/CameraParams.h>
 
+#include "ros/message_pool.h"
 #include "ros/ros_to_trk_parameters.h"
 #include "trk_bridge/base/snapshot.h"
 #include "trk_bridge/camera/converter.h"
@@ -38,7 +39,7 @@ class SentTopic {
   camera::Converter converter_;
   SentStatistics statistics_;
   base::Snapshot<SentStatistics> published_;
-  trk_bridge::CameraParams message_;
+  ros1::MessagePool<trk_bridge::CameraParams> messages_;
   ::ros::Publisher topic_;
 };
 

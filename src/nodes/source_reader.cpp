@@ -7,8 +7,11 @@
 
 namespace trk_bridge::nodes {
 
-SourceReader::SourceReader(std::unique_ptr<transport::Source> source, std::vector<CameraOutput*> cameras)
-    : source_(std::move(source)), cameras_(std::move(cameras)) {}
+SourceReader::SourceReader(std::unique_ptr<transport::Source> source, std::vector<CameraOutput*> cameras,
+                           ::ros::Publisher tf)
+    : source_(std::move(source)), cameras_(std::move(cameras)), tf_(std::move(tf)) {
+  ready_.reserve(cameras_.size());
+}
 
 SourceReader::~SourceReader() {
   source_->stop();
@@ -45,9 +48,11 @@ void SourceReader::run() {
 void SourceReader::read() {
   transport::Reception reception;
   for (;;) {
-    switch (source_->receive(reception, std::chrono::nanoseconds(-1))) {
+    const std::chrono::nanoseconds wait(ready_.empty() ? -1 : 0);
+    switch (source_->receive(reception, wait)) {
       case transport::Event::sample:
         dispatch(reception.sample);
+        if (!reception.more) publish();
         break;
       case transport::Event::malformed:
         statistics_.has_fault = true;
@@ -55,10 +60,12 @@ void SourceReader::read() {
         published_.store(statistics_);
         break;
       case transport::Event::idle:
+        publish();
         break;
       case transport::Event::stopped:
       case transport::Event::ended:
       case transport::Event::failed:
+        publish();
         return;
     }
   }
@@ -70,9 +77,27 @@ void SourceReader::dispatch(const transport::Sample& sample) {
   for (auto* camera : cameras_) {
     if (!camera->wants(sample.record)) continue;
     wanted = true;
-    camera->process(sample, now);
+    const auto update = camera->process(sample, now);
+    if (update.is_empty()) continue;
+    if (camera->is_ready()) publish();
+    camera->make(update);
+    ready_.push_back(camera);
   }
   if (!wanted) note_unknown(std::visit([](const auto& record) { return record.id; }, sample.record));
+}
+
+void SourceReader::publish() {
+  auto& transforms = transforms_.renew().transforms;
+  // Kept elements keep the room of their texts.
+  transforms.resize(ready_.size());
+  std::size_t count = 0;
+  for (const auto* camera : ready_) {
+    if (const auto* transform = camera->transform()) transforms[count++] = *transform;
+  }
+  transforms.resize(count);
+  if (!transforms.empty()) tf_.publish(transforms_.current());
+  for (auto* camera : ready_) camera->publish();
+  ready_.clear();
 }
 
 void SourceReader::note_unknown(std::uint32_t id) {

@@ -13,13 +13,17 @@
 namespace trk_bridge::nodes {
 namespace {
 
-/// One topic for all cameras that have markers, with a queue for the bursts of each.
+/// A queue for the bursts of each of `cameras`.
+std::uint32_t queue_for(std::ptrdiff_t cameras, const ros1::TrkToRosParameters& parameters) {
+  return static_cast<std::uint32_t>(parameters.queue_size) * static_cast<std::uint32_t>(cameras);
+}
+
+/// One topic for all cameras that have markers.
 ::ros::Publisher advertise_markers(::ros::NodeHandle& private_node, const ros1::TrkToRosParameters& parameters) {
   const auto count = std::count_if(parameters.cameras.begin(), parameters.cameras.end(),
                                    [](const auto& camera) { return camera.publish_markers; });
   if (count == 0) return {};
-  const auto queue = static_cast<std::uint32_t>(parameters.queue_size) * static_cast<std::uint32_t>(count);
-  return private_node.advertise<visualization_msgs::MarkerArray>("markers", queue);
+  return private_node.advertise<visualization_msgs::MarkerArray>("markers", queue_for(count, parameters));
 }
 
 }  // namespace
@@ -43,10 +47,12 @@ void TrkToRos::open(const ros1::TrkToRosParameters& parameters, const ::ros::Pub
         std::make_unique<CameraOutput>(topics, camera, parameters.field_rate, parameters.queue_size, markers));
     by_source[camera.source->url].push_back(cameras_.back().get());
   }
+  const auto tf = node_.advertise<tf2_msgs::TFMessage>(
+      "/tf", queue_for(static_cast<std::ptrdiff_t>(parameters.cameras.size()), parameters));
   const double field_rate = parameters.field_rate.value_or(bridge::assumed_field_rate);
   for (const auto& [url, cameras] : by_source) {
     const auto& endpoint = cameras.front()->parameters().source;
-    readers_.push_back(std::make_unique<SourceReader>(endpoint->open(field_rate), cameras));
+    readers_.push_back(std::make_unique<SourceReader>(endpoint->open(field_rate), cameras, tf));
     for (auto* camera : cameras) {
       diagnostics_.add(camera->parameters().name,
                        [camera, reader = readers_.back().get()] { return camera->describe(reader->report()); });

@@ -1,44 +1,49 @@
 #include "camera_messages.h"
 
 #include <cstring>
+#include <string>
 
 #include "trk_bridge/ros/messages.h"
 
 namespace trk_bridge::ros1 {
+namespace {
 
-CameraMessages::CameraMessages(const CameraFrames& frames) {
-  params_.header.frame_id = frames.studio;
-  constants_.header.frame_id = frames.camera;
-  camera_info_.header.frame_id = frames.optical;
-  // For the longer of both models, so that a change of the lens allocates nothing.
-  camera_info_.D.reserve(8);
-  camera_info_.distortion_model.reserve(std::strlen(camera::name(camera::DistortionModel::rational_polynomial)));
+sensor_msgs::CameraInfo camera_info_in(const std::string& frame) {
+  auto message = in_frame<sensor_msgs::CameraInfo>(frame);
+  // Room for the longer of both models, which copies of the message keep: a change of the lens allocates nothing.
+  message.distortion_model = camera::name(camera::DistortionModel::rational_polynomial);
+  message.D.resize(8);
+  return message;
+}
+
+/// Puts what `value` is into a message that nobody has.
+template <typename Value, typename Message>
+void fill(MessagePool<Message>& pool, const Value& value, const ::ros::Time& stamp) {
+  auto& message = pool.renew();
+  to_msg(value, message);
+  message.header.stamp = stamp;
+}
+
+}  // namespace
+
+CameraMessages::CameraMessages(const CameraFrames& frames)
+    : params_(in_frame<trk_bridge::CameraParams>(frames.studio)),
+      constants_(in_frame<trk_bridge::CameraConstants>(frames.camera)),
+      camera_info_(camera_info_in(frames.optical)),
+      time_code_(in_frame<trk_bridge::TimeCode>(frames.studio)) {
   transform_.header.frame_id = frames.studio;
   transform_.child_frame_id = frames.camera;
-  time_code_.header.frame_id = frames.studio;
 }
 
 void CameraMessages::make(const bridge::CameraUpdate& update) {
   const ::ros::Time stamp = to_time(update.stamp);
-  if (update.constants) {
-    to_msg(*update.constants, constants_);
-    constants_.header.stamp = stamp;
-  }
-  if (update.params) {
-    to_msg(*update.params, params_);
-    params_.header.stamp = stamp;
-  }
-  if (update.calibration) {
-    to_msg(*update.calibration, camera_info_);
-    camera_info_.header.stamp = stamp;
-  }
+  if (update.constants) fill(constants_, *update.constants, stamp);
+  if (update.params) fill(params_, *update.params, stamp);
+  if (update.calibration) fill(camera_info_, *update.calibration, stamp);
+  if (update.time_code) fill(time_code_, *update.time_code, stamp);
   if (update.pose) {
     transform_.transform = to_transform(*update.pose);
     transform_.header.stamp = stamp;
-  }
-  if (update.time_code) {
-    to_msg(*update.time_code, time_code_);
-    time_code_.header.stamp = stamp;
   }
 }
 

@@ -8,11 +8,13 @@
 #include <trk_bridge/TimeCode.h>
 
 #include "bridge/camera_pipeline.h"
+#include "message_pool.h"
 #include "trk_bridge/ros/frames.h"
 
 namespace trk_bridge::ros1 {
 
-/// Not synchronised. Messages are kept and overwritten, so that a sample allocates nothing.
+/// Not synchronised. A sample allocates nothing, unless subscribers in the same process keep many of its messages (see
+/// MessagePool).
 class CameraMessages {
  public:
   explicit CameraMessages(const CameraFrames&);
@@ -20,18 +22,19 @@ class CameraMessages {
   /// Makes the messages of all that is in an update, with its stamp; the others stay as they are.
   void make(const bridge::CameraUpdate&);
 
-  const trk_bridge::CameraParams& params() const noexcept { return params_; }
-  const trk_bridge::CameraConstants& constants() const noexcept { return constants_; }
-  const sensor_msgs::CameraInfo& camera_info() const noexcept { return camera_info_; }
+  /// To be published as they are, not to be changed any more.
+  const auto& params() const noexcept { return params_.current(); }
+  const auto& constants() const noexcept { return constants_.current(); }
+  const auto& camera_info() const noexcept { return camera_info_.current(); }
+  const auto& time_code() const noexcept { return time_code_.current(); }
   const geometry_msgs::TransformStamped& transform() const noexcept { return transform_; }
-  const trk_bridge::TimeCode& time_code() const noexcept { return time_code_; }
 
  private:
-  trk_bridge::CameraParams params_;
-  trk_bridge::CameraConstants constants_;
-  sensor_msgs::CameraInfo camera_info_;
+  MessagePool<trk_bridge::CameraParams> params_;
+  MessagePool<trk_bridge::CameraConstants> constants_;
+  MessagePool<sensor_msgs::CameraInfo> camera_info_;
+  MessagePool<trk_bridge::TimeCode> time_code_;
   geometry_msgs::TransformStamped transform_;
-  trk_bridge::TimeCode time_code_;
 };
 
 }  // namespace trk_bridge::ros1

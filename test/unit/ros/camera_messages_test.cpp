@@ -23,18 +23,18 @@ TEST(CameraMessages, OneStampForEverythingOfASampleInItsFrames) {
   CameraMessages messages({"studio", "crane1", "crane1_optical"});
   messages.make(whole(today));
   const ::ros::Time expected(1'700'000'000, 123'456'789);
-  EXPECT_EQ(messages.params().header.stamp, expected);
-  EXPECT_EQ(messages.constants().header.stamp, expected);
-  EXPECT_EQ(messages.camera_info().header.stamp, expected);
+  EXPECT_EQ(messages.params()->header.stamp, expected);
+  EXPECT_EQ(messages.constants()->header.stamp, expected);
+  EXPECT_EQ(messages.camera_info()->header.stamp, expected);
   EXPECT_EQ(messages.transform().header.stamp, expected);
-  EXPECT_EQ(messages.params().header.frame_id, "studio");
-  EXPECT_EQ(messages.constants().header.frame_id, "crane1");
-  EXPECT_EQ(messages.camera_info().header.frame_id, "crane1_optical");
+  EXPECT_EQ(messages.params()->header.frame_id, "studio");
+  EXPECT_EQ(messages.constants()->header.frame_id, "crane1");
+  EXPECT_EQ(messages.camera_info()->header.frame_id, "crane1_optical");
   EXPECT_EQ(messages.transform().header.frame_id, "studio");
   EXPECT_EQ(messages.transform().child_frame_id, "crane1");
-  EXPECT_EQ(messages.params().counter, 7u);
-  EXPECT_EQ(messages.constants().id, 3u);
-  EXPECT_EQ(messages.camera_info().width, 1920u);
+  EXPECT_EQ(messages.params()->counter, 7u);
+  EXPECT_EQ(messages.constants()->id, 3u);
+  EXPECT_EQ(messages.camera_info()->width, 1920u);
   EXPECT_EQ(messages.transform().transform.translation.z, 3);
 }
 
@@ -46,15 +46,15 @@ TEST(CameraMessages, WhatIsNotInAnUpdateStays) {
   pose.pose = Eigen::Isometry3d::Identity();
   messages.make(pose);
   EXPECT_EQ(messages.transform().header.stamp, ::ros::Time(1'700'000'000, 123'456'790));
-  EXPECT_EQ(messages.params().header.stamp, ::ros::Time(1'700'000'000, 123'456'789));
-  EXPECT_EQ(messages.camera_info().width, 1920u);
-  EXPECT_EQ(messages.constants().id, 3u);
+  EXPECT_EQ(messages.params()->header.stamp, ::ros::Time(1'700'000'000, 123'456'789));
+  EXPECT_EQ(messages.camera_info()->width, 1920u);
+  EXPECT_EQ(messages.constants()->id, 3u);
 }
 
 TEST(CameraMessages, ConstantsOfNoKnownTimeHaveTheTimeZero) {
   CameraMessages messages({"studio", "crane1", "crane1_optical"});
   messages.make(whole(0));
-  EXPECT_TRUE(messages.constants().header.stamp.isZero());
+  EXPECT_TRUE(messages.constants()->header.stamp.isZero());
 }
 
 }  // namespace

@@ -83,8 +83,8 @@ std::optional<Sent> sent(const Case& c, const std::optional<bridge::OutgoingSet>
 
 std::optional<Sent> sent_again(const Case& c, const Incoming& incoming) {
   bridge::ParamsToTrk outgoing;
-  outgoing.use(from_msg(incoming->constants()));
-  return sent(c, outgoing.use(from_msg(incoming->params()), 0));
+  outgoing.use(from_msg(*incoming->constants()));
+  return sent(c, outgoing.use(from_msg(*incoming->params()), 0));
 }
 
 void expect_same_through_params(const Case& c, std::uint32_t published_format) {
@@ -112,7 +112,7 @@ void expect_same_through_tf(const Case& c) {
   options.chip.blank_top = c.constants.blank_top;
   options.chip.blank_bottom = c.constants.blank_bottom;
   bridge::TfToTrk outgoing(options);
-  outgoing.use(from_msg(incoming->camera_info()), today, 0);
+  outgoing.use(from_msg(*incoming->camera_info()), today, 0);
   const auto made = sent(c, outgoing.make(to_isometry(incoming->transform().transform), today, 0));
   ASSERT_TRUE(made);
   EXPECT_EQ(wire::format_to_words(made->params.format), wire::format_to_words(c.params.format));

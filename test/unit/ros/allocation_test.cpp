@@ -1,0 +1,85 @@
+// The whole way of a sample, in and out, but for what roscpp does between: nothing of it allocates.
+#include <gmock/gmock.h>
+
+#include "allocations.h"
+#include "bridge/camera_pipeline.h"
+#include "bridge/outlet_writer.h"
+#include "bridge/params_to_trk.h"
+#include "ros/camera_messages.h"
+#include "trk_bridge/endpoints/endpoints.h"
+#include "trk_bridge/ros/messages.h"
+#include "trk_bridge/wire/format.h"
+#include "udp.h"
+
+namespace trk_bridge::ros1 {
+namespace {
+
+constexpr int fields = 200;
+
+wire::CameraConstants constants() { return {0, 1920, 1080, 0, 0, 0, 0, 9.59, 5.39, 9.59, 5.39}; }
+
+wire::CameraParams params(int i) {
+  wire::CameraParams params;
+  params.counter = static_cast<std::uint64_t>(i);
+  params.format = wire::euler | wire::field_of_view;
+  params.euler = {1.25 + i, -2, 1.75, 30, -5.0 / 3, 0.25};
+  // Some fields have a lens that plumb_bob cannot say.
+  params.fov = 40 + 0.01 * i;
+  params.k1 = i % 2 == 0 ? -0.002 : -1e-4;
+  return params;
+}
+
+TEST(Allocation, DoesNotHappenFromADatagramToMessages) {
+  const auto source = endpoints::open_source("udp://127.0.0.1:0");
+  const auto sink = endpoints::open_sink("udp://127.0.0.1:" + std::to_string(test::port_of(*source)));
+  bridge::CameraOptions options;
+  options.stamp = bridge::StampMode::counter;
+  bridge::CameraPipeline pipeline(options, std::nullopt);
+  CameraMessages messages({"a studio with a long name", "a camera with a long name", "its optical frame, as long"});
+  ASSERT_TRUE(sink->write(constants()));
+  transport::Reception reception;
+  int made = 0;
+  const auto count = test::allocations_of([&] {
+    for (int i = 1; i <= fields; ++i) {
+      // The sink sends its constants again once a second.
+      if (!sink->write(params(i))) return;
+      do {
+        if (source->receive(reception, std::chrono::seconds(5)) != transport::Event::sample) return;
+        const auto update = pipeline.process(reception.sample, i);
+        messages.make(update);
+        made += update.params && update.calibration && update.pose;
+      } while (!std::holds_alternative<wire::CameraParams>(reception.sample.record));
+    }
+  });
+  EXPECT_EQ(made, fields);
+  EXPECT_EQ(messages.params()->counter, static_cast<std::uint64_t>(fields));
+  EXPECT_EQ(count, 0u);
+}
+
+TEST(Allocation, DoesNotHappenFromAMessageToADatagram) {
+  const test::PlainSocket receiver;
+  const auto endpoint =
+      *endpoints::parse_sink("udp://127.0.0.1:" + std::to_string(receiver.port()) + "?format=euler+field_of_view");
+  bridge::OutletWriter writer(endpoint.open(), endpoint.form, bridge::Feed::one_camera);
+  bridge::ParamsToTrk sets;
+  trk_bridge::CameraConstants constants_message;
+  to_msg(constants(), constants_message);
+  trk_bridge::CameraParams params_message;
+  sets.use(from_msg(constants_message));
+  const auto write = [&](int i) {
+    to_msg(params(i), params_message);
+    const auto set = sets.use(from_msg(params_message), std::int64_t{i});
+    if (set.constants) writer.write(*set.constants);
+    writer.write(set.params);
+  };
+  // A camera id is met.
+  write(0);
+  EXPECT_EQ(test::allocations_of([&] {
+              for (int i = 1; i <= fields; ++i) write(i);
+            }),
+            0u);
+  EXPECT_EQ(writer.statistics().sent.params, fields + 1u);
+}
+
+}  // namespace
+}  // namespace trk_bridge::ros1
