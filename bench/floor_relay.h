@@ -1,0 +1,64 @@
+// The least that a relay in roscpp can be: what the bridge is measured against.
+#pragma once
+
+#include <sys/socket.h>
+
+#include <atomic>
+#include <string>
+#include <thread>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/subscriber.h>
+#include <trk_bridge/CameraParams.h>
+
+namespace trk_bridge::bench {
+
+/// A UDP socket of the loopback.
+class LoopbackSocket {
+ public:
+  /// Bound to `port`; 0: one that the kernel picks. Throws std::runtime_error.
+  explicit LoopbackSocket(int port);
+  ~LoopbackSocket();
+  LoopbackSocket(const LoopbackSocket&) = delete;
+  LoopbackSocket& operator=(const LoopbackSocket&) = delete;
+
+  int port() const;
+  void send(const char* data, std::size_t size, int to_port) const;
+  /// Waits for a datagram; 0 once close() was called.
+  std::size_t receive(char* data, std::size_t size) const;
+  void close() const;
+
+ private:
+  int fd_;
+};
+
+/// trk of `~port` to params, camera_info and tf: no counters, no stamps but the time of receipt, no lens fit, no
+/// diagnostics. Messages go out by pointer.
+class FloorIn {
+ public:
+  FloorIn(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string& name);
+  ~FloorIn();
+
+ private:
+  void run();
+
+  LoopbackSocket socket_;
+  ::ros::Publisher params_, camera_info_, tf_;
+  std::thread thread_;
+};
+
+/// params to trk, to `~port`.
+class FloorOut {
+ public:
+  FloorOut(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string& name);
+
+ private:
+  void receive(const trk_bridge::CameraParams&) const;
+
+  int port_;
+  LoopbackSocket socket_;
+  ::ros::Subscriber params_;
+};
+
+}  // namespace trk_bridge::bench
