@@ -9,11 +9,12 @@
 
 namespace trk_bridge::transport {
 
-/// Counts what a source hands out and derives its state from that. The protected functions belong to the thread of
+/// Counts what a source hands out and derives its state from that. A source that waits for more than stop_event() adds
+/// to stop(). The protected functions belong to the thread of
 /// receive().
 class CountedSource : public Source {
  public:
-  void stop() noexcept final { stop_.set(); }
+  void stop() noexcept override { stop_.set(); }
   SourceStatistics statistics() const final;
   std::string name() const final { return name_; }
 

@@ -26,6 +26,10 @@ class DatagramSource final : public CountedSource {
       : CountedSource(socket->name()), socket_(std::move(socket)), decoder_(std::move(decoder)) {}
 
   Event receive(Reception& into, std::chrono::nanoseconds wait) override;
+  void stop() noexcept override {
+    CountedSource::stop();
+    socket_->stop();
+  }
 
  private:
   Event too_long(const ReceiveSocket::Datagram& datagram, Reception& into) noexcept;
@@ -58,7 +62,7 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
     }
     if (rounds >= most_after_deadline && deadline.has_passed()) return Event::idle;
     int error = 0;
-    if (const auto datagram = socket_->next(error)) {
+    if (const auto datagram = socket_->next(deadline.is_endless(), error)) {
       if (!datagram->is_allowed) {
         refused(datagram->sender);
         continue;
@@ -71,6 +75,8 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
       continue;
     }
     if (ends_source(error)) return failed(error);
+    // One system call waits and reads; with a time limit there are three.
+    if (deadline.is_endless()) continue;
     // With no time to wait, what is there was asked for.
     if (deadline.has_passed()) return Event::idle;
     switch (wait_readable(socket_->fd(), stop_event(), deadline)) {

@@ -40,9 +40,10 @@ std::uint16_t port_in(const SocketAddress& address) {
   return static_cast<std::uint16_t>(sender_of(address.storage).number);
 }
 
-Descriptor open_socket(int family) {
-  return Descriptor(::socket(family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-}
+/// Ends every wait for the socket, now and later; its queue can still be read. Linux answers ENOTCONN and does it.
+void end_waits(int fd) noexcept { (void)::shutdown(fd, SHUT_RD); }
+
+Descriptor open_socket(int family) { return Descriptor(::socket(family, SOCK_DGRAM | SOCK_CLOEXEC, 0)); }
 
 void bind_or_say_why(int fd, const SocketAddress& address, bool shareable) {
   if (::bind(fd, address.get(), address.length) == 0) return;
@@ -158,12 +159,25 @@ void ReceiveSocket::replace_socket(const Descriptor& with) {
   epoll_event readable{};
   readable.events = EPOLLIN;
   const std::lock_guard lock(mutex_);
-  earlier_drops_ += dropped_by_kernel(socket_.get()).value_or(0);
-  // The kernel takes the old one out of the set by itself.
-  if (::dup3(with.get(), socket_.get(), O_CLOEXEC) < 0 ||
-      ::epoll_ctl(readable_.get(), EPOLL_CTL_ADD, socket_.get(), &readable) != 0) {
+  const Descriptor old(::fcntl(socket_.get(), F_DUPFD_CLOEXEC, 0));
+  if (!old.is_open() || ::dup3(with.get(), socket_.get(), O_CLOEXEC) < 0) {
     throw TransportError("no socket: " + system_text(errno));
   }
+  earlier_drops_ += dropped_by_kernel(old.get()).value_or(0);
+  // Who waits in the old one has to wait in the new one, and a stop may have come to the old one alone.
+  end_waits(old.get());
+  if (stopped_) end_waits(socket_.get());
+  // The kernel takes the old one out of the set when its last descriptor is closed.
+  if (::epoll_ctl(readable_.get(), EPOLL_CTL_ADD, socket_.get(), &readable) != 0) {
+    throw TransportError("no socket: " + system_text(errno));
+  }
+}
+
+void ReceiveSocket::stop() noexcept {
+  const int saved = errno;
+  stopped_ = true;
+  end_waits(socket_.get());
+  errno = saved;
 }
 
 void ReceiveSocket::listen_through(unsigned interface_index) {
@@ -243,12 +257,18 @@ std::uint64_t ReceiveSocket::kernel_drops() const noexcept {
   return earlier_drops_ + dropped_by_kernel(socket_.get()).value_or(0);
 }
 
-int ReceiveSocket::fill() noexcept {
+int ReceiveSocket::fill(bool waits) noexcept {
   for (auto& header : headers_) {
     header.msg_hdr.msg_namelen = sizeof(sockaddr_storage);
     header.msg_hdr.msg_controllen = sizeof(Control);
   }
-  return ::recvmmsg(socket_.get(), headers_.data(), batch, MSG_DONTWAIT, nullptr);
+  const int came = ::recvmmsg(socket_.get(), headers_.data(), batch, waits ? MSG_WAITFORONE : MSG_DONTWAIT, nullptr);
+  // The end of a wait looks like an empty datagram that nobody sent.
+  if (came > 0 && headers_[0].msg_hdr.msg_namelen == 0) {
+    errno = EAGAIN;
+    return -1;
+  }
+  return came;
 }
 
 std::int64_t ReceiveSocket::arrival(std::size_t i) noexcept {
@@ -268,10 +288,10 @@ bool ReceiveSocket::is_allowed(const Sender& sender) const noexcept {
          });
 }
 
-std::optional<ReceiveSocket::Datagram> ReceiveSocket::next(int& error) noexcept {
+std::optional<ReceiveSocket::Datagram> ReceiveSocket::next(bool waits, int& error) noexcept {
   error = 0;
   while (next_ == count_) {
-    const int came = fill();
+    const int came = fill(waits);
     next_ = 0;
     count_ = came > 0 ? static_cast<std::size_t>(came) : 0;
     if (came > 0) break;

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -40,8 +41,8 @@ struct ReceiveSettings {
 };
 
 /// Bound from construction to destruction; to an address that is another one on each interface (fe80::1%eth0, ff02::7),
-/// when that is there. One thread at a time but for kernel_drops() and why_nothing_can_come(); reading allocates
-/// nothing. A thread of its own follows the interfaces of groups and of such addresses.
+/// when that is there. One thread at a time but for stop(), kernel_drops() and why_nothing_can_come(); reading
+/// allocates nothing. A thread of its own follows the interfaces of groups and of such addresses.
 class ReceiveSocket {
  public:
   /// Throws TransportError.
@@ -54,6 +55,8 @@ class ReceiveSocket {
   std::uint16_t port() const noexcept { return port_; }
   /// Readable when the next datagram is there.
   int fd() const noexcept { return readable_.is_open() ? readable_.get() : socket_.get(); }
+  /// Wakes next() for good. Any thread, safe in a signal handler; errno stays.
+  void stop() noexcept;
   /// Datagrams that the kernel threw away so far because nobody read in time. Any thread.
   std::uint64_t kernel_drops() const noexcept;
   /// "interface eth0 is down"; empty where nothing is wrong with address, interface and group. Any thread.
@@ -67,9 +70,9 @@ class ReceiveSocket {
     bool is_allowed = true;    ///< the sender
     std::int64_t arrival = 0;  ///< ns since 1970 UTC: the kernel's stamp
   };
-  /// The next datagram that is there, without waiting; its bytes stay until the next call. None when nothing is there
-  /// or, with errno in `error`, the system refused.
-  std::optional<Datagram> next(int& error) noexcept;
+  /// The next datagram; its bytes stay until the next call. None when nothing is there or, with errno in `error`, the
+  /// system refused. `waits`: until one is there, but none as well when it is time to look whether to go on.
+  std::optional<Datagram> next(bool waits, int& error) noexcept;
   /// False: when next() last asked the system, no more were there than it has given since.
   bool has_more() const noexcept { return next_ < count_ || count_ == batch; }
 
@@ -85,7 +88,7 @@ class ReceiveSocket {
   void follow_interfaces(const InterfaceWatch::Removed& removed);
   bool follow_or_say_why(const InterfaceWatch::Removed& removed);
 
-  int fill() noexcept;
+  int fill(bool waits) noexcept;
   std::int64_t arrival(std::size_t i) noexcept;
   bool is_allowed(const Sender&) const noexcept;
 
@@ -95,6 +98,7 @@ class ReceiveSocket {
   const std::string interface_;  // that it is tied to; empty: none
   Descriptor socket_;
   Descriptor readable_;  // a set with the socket in it: poll() does not see that a socket was replaced
+  std::atomic<bool> stopped_{false};
   std::string name_;
   std::uint16_t port_ = 0;
   std::vector<Sender> allowed_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "error_of.h"
+#include "system_calls.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
@@ -20,6 +21,7 @@ using test::next;
 using test::next_counter;
 using test::PlainSocket;
 using test::port_of;
+using test::SystemCalls;
 using testing::HasSubstr;
 using transport::Event;
 using transport::Reception;
@@ -325,6 +327,62 @@ TEST(UdpSource, WhatIsNotThereYetIsWaitedFor) {
   EXPECT_THAT(waiting_for("udp://239.255.77.1:0?interface=198.51.100.1"),
               testing::AllOf(HasSubstr("address or name 198.51.100.1;"), HasSubstr("there are"), HasSubstr("lo")));
   EXPECT_THAT(waiting_for("udp://239.255.77.1:0?interface=nosuch0"), HasSubstr("address or name nosuch0;"));
+}
+
+/// Of the thread that waits for 100 samples without end. `send(i)` is called before each, or in another thread.
+template <typename Before, typename Beside>
+std::optional<SystemCalls> calls_of_100(const Before& before, const Beside& beside, bool& is_permitted) {
+  return test::system_calls_of(
+      [&](const auto& counted) {
+        const auto source = open_source("udp://127.0.0.1:0?buffer=1000000");
+        const PlainSocket tracker;
+        const auto send = [&tracker, port = port_of(*source)](std::uint64_t i) {
+          tracker.send(test::datagram(test::params(i)), "127.0.0.1", port);
+        };
+        bool well = true;
+        std::thread sender([&] { beside(send); });
+        counted([&] {
+          Reception reception;
+          for (std::uint64_t i = 0; i < 100; ++i) {
+            before(i, send);
+            well = well && source->receive(reception, std::chrono::nanoseconds(-1)) == Event::sample &&
+                   std::get<wire::CameraParams>(reception.sample.record).counter == i;
+          }
+        });
+        sender.join();
+        return well;
+      },
+      is_permitted);
+}
+
+TEST(UdpSource, OneSystemCallASample) {
+  const auto nothing_beside = [](const auto&) {};
+  bool is_permitted = true;
+  const auto one_by_one =
+      calls_of_100([](std::uint64_t i, const auto& send) { send(i); }, nothing_beside, is_permitted);
+  if (!is_permitted) GTEST_SKIP() << "no process may be traced here";
+  EXPECT_EQ(one_by_one, (SystemCalls{{SYS_sendto, 100}, {SYS_recvmmsg, 100}}));
+
+  const auto at_once = calls_of_100(
+      [](std::uint64_t i, const auto& send) {
+        for (std::uint64_t k = 0; i == 0 && k < 100; ++k) send(k);
+      },
+      nothing_beside, is_permitted);
+  ASSERT_TRUE(at_once.has_value());
+  EXPECT_EQ(at_once->at(SYS_sendto), 100);
+  EXPECT_LE(test::total(*at_once), 100 + 10) << "datagrams that are there are taken many at a time";
+
+  const auto waited_for = calls_of_100([](std::uint64_t, const auto&) {},
+                                       [](const auto& send) {
+                                         for (std::uint64_t i = 0; i < 100; ++i) {
+                                           std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                                           send(i);
+                                         }
+                                       },
+                                       is_permitted);
+  ASSERT_TRUE(waited_for.has_value());
+  EXPECT_EQ(waited_for->size(), 1u) << "of one kind";
+  EXPECT_LE(waited_for->at(SYS_recvmmsg), 100);
 }
 
 TEST(UdpSource, StatisticsWhileReceiving) {

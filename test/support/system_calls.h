@@ -1,0 +1,73 @@
+// Counts the system calls of a thread.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/ptrace.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <map>
+#include <optional>
+
+namespace trk_bridge::test {
+
+/// How often each, by its number (SYS_…).
+using SystemCalls = std::map<long, int>;
+
+inline int total(const SystemCalls& calls) {
+  int sum = 0;
+  for (const auto& [number, count] : calls) sum += count;
+  return sum;
+}
+
+/// Runs `work` in a child process: `work(counted)` prepares, calls `counted(part)`, and returns whether all went well.
+/// Gives the system calls of `part` by the thread that runs it; none where `work` failed, or with `is_permitted` false
+/// where this process may not trace.
+template <typename Work>
+std::optional<SystemCalls> system_calls_of(const Work& work, bool& is_permitted) {
+  // Calls that do nothing, with an argument that nobody else gives.
+  constexpr long begin = -1234567, end = -1234568;
+  constexpr int not_permitted = 3;
+  is_permitted = true;
+  const pid_t child = ::fork();
+  if (child < 0) return {};
+  if (child == 0) {
+    if (::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) ::_exit(not_permitted);
+    ::raise(SIGSTOP);
+    const bool well = work([](const auto& part) {
+      ::syscall(SYS_getpgid, begin);
+      part();
+      ::syscall(SYS_getpgid, end);
+    });
+    ::_exit(well ? 0 : 1);
+  }
+  SystemCalls calls;
+  bool counts = false;
+  int status = 0;
+  while (::waitpid(child, &status, __WALL) == child && WIFSTOPPED(status)) {
+    const int signal = WSTOPSIG(status);
+    const bool is_call = signal == (SIGTRAP | 0x80);
+    if (is_call) {
+      __ptrace_syscall_info info{};
+      ::ptrace(PTRACE_GET_SYSCALL_INFO, child, sizeof info, &info);
+      if (info.op == PTRACE_SYSCALL_INFO_ENTRY) {
+        const auto number = static_cast<long>(info.entry.nr);
+        const auto argument = static_cast<int>(info.entry.args[0]);
+        const bool is_mark = number == SYS_getpgid && (argument == begin || argument == end);
+        if (is_mark) counts = argument == begin;
+        if (counts && !is_mark) ++calls[number];
+      }
+    } else {
+      ::ptrace(PTRACE_SETOPTIONS, child, nullptr, PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL);
+    }
+    const bool is_for_child = !is_call && signal != SIGSTOP && signal != SIGTRAP;
+    ::ptrace(PTRACE_SYSCALL, child, nullptr, is_for_child ? signal : 0);
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == not_permitted) is_permitted = false;
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return {};
+  return calls;
+}
+
+}  // namespace trk_bridge::test
