@@ -75,6 +75,14 @@ std::string offset_text(std::int64_t behind) {
   return duration_text(std::abs(seconds_between(0, behind))) + (behind < 0 ? " ahead of" : " behind");
 }
 
+/// "8388608 bytes", "212992 of 8388608 bytes: net.core.rmem_max allows no more".
+std::string receive_buffer_text(const transport::SourceStatistics& source) {
+  if (source.receive_buffer == 0) return "none";
+  const std::string granted = std::to_string(source.receive_buffer);
+  if (source.receive_buffer >= source.wanted_buffer) return granted + " bytes";
+  return granted + " of " + std::to_string(source.wanted_buffer) + " bytes: net.core.rmem_max allows no more";
+}
+
 std::string camera_info_text(const CameraStatistics& camera) {
   if (camera.has_camera_info) return "yes";
   if (!camera.has_lens) return "no: the records have no lens";
@@ -133,7 +141,8 @@ void add_source_findings(std::vector<Finding>& found, const CameraReport& now, c
          "datagrams from senders that are not allowed, last " + transport::to_string(now.source.last_refused));
   }
   if (now.source.kernel_drops > before.source.kernel_drops) {
-    warn(found, Condition::kernel_drops, "the kernel dropped datagrams: the receive buffer was full");
+    warn(found, Condition::kernel_drops,
+         "the kernel dropped datagrams: the receive buffer was full (" + receive_buffer_text(now.source) + ")");
   }
   if (now.reader.unknown_id_records > before.reader.unknown_id_records) {
     warn(found, Condition::unknown_ids, "records with ids that no camera has: " + ids_text(now.reader));
@@ -301,6 +310,7 @@ void fill(Status& status, const std::vector<Finding>& found, const CameraReport&
   status.add("last malformed", fault_text(now.reader));
   status.add("refused senders", now.source.refused);
   status.add("kernel drops", now.source.kernel_drops);
+  status.add("receive buffer", receive_buffer_text(now.source));
   status.add("overwritten", now.source.overwritten);
   status.add("reattached", now.source.reattached);
   status.add("unknown ids", now.reader.unknown_id_records);

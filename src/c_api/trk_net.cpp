@@ -19,8 +19,8 @@ namespace {
 
 using transport::Event;
 
-// A call ends even when datagrams come faster than it reads them.
-constexpr int most_datagrams = 4096;
+// A call ends even when datagrams come faster than it reads them. No receive buffer holds that many.
+constexpr int most_datagrams = 32768;
 
 bool is_port(int port) noexcept { return port >= 1 && port <= std::numeric_limits<std::uint16_t>::max(); }
 

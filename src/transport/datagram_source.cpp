@@ -103,6 +103,8 @@ Event DatagramSource::too_long(const ReceiveSocket::Datagram& datagram, Receptio
 
 void DatagramSource::complete(SourceStatistics& statistics) const {
   statistics.kernel_drops = socket_->kernel_drops();
+  statistics.receive_buffer = static_cast<std::uint64_t>(socket_->granted_buffer());
+  statistics.wanted_buffer = static_cast<std::uint64_t>(socket_->wanted_buffer());
   if (statistics.state == SourceState::failed) return;
   std::string why = socket_->why_nothing_can_come();
   if (why.empty() && statistics.state == SourceState::waiting) why = "bound, nothing received yet";

@@ -61,19 +61,22 @@ void bind_or_say_why(int fd, const SocketAddress& address, bool shareable) {
   }
 }
 
-void enlarge_buffer(int fd, int bytes) {
-  // Without the privilege for the first, the second grants as much as the system's limit.
-  if (::setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) != 0) {
-    set_option(fd, SOL_SOCKET, SO_RCVBUF, bytes, "buffer");
-  }
+/// In bytes as they are asked for; the kernel doubles them, its own bookkeeping included.
+int granted_buffer_of(int fd) noexcept {
   int granted = 0;
   socklen_t size = sizeof granted;
-  if (::getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &granted, &size) != 0) {
-    throw TransportError("buffer: the system refused: " + system_text(errno));
+  return ::getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &granted, &size) == 0 ? granted / 2 : 0;
+}
+
+void set_buffer(int fd, std::optional<int> bytes) {
+  const int wanted = bytes.value_or(default_receive_buffer);
+  // Without the privilege for the first, the second grants as much as the system's limit.
+  if (::setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &wanted, sizeof wanted) != 0) {
+    set_option(fd, SOL_SOCKET, SO_RCVBUF, wanted, "buffer");
   }
-  // The kernel doubles what is asked for, its own bookkeeping included.
-  if (granted / 2 < bytes) {
-    throw TransportError("buffer = " + std::to_string(bytes) + ": the kernel grants " + std::to_string(granted / 2) +
+  const int granted = granted_buffer_of(fd);
+  if (bytes && granted < wanted) {
+    throw TransportError("buffer = " + std::to_string(wanted) + ": the kernel grants " + std::to_string(granted) +
                          " bytes (raise it with sysctl net.core.rmem_max)");
   }
 }
@@ -105,7 +108,7 @@ Descriptor open_bound(const ReceiveSettings& settings, SocketAddress& address) {
   if (group) hear_joined_only(fd, address.family());
   set_option(fd, IPPROTO_IP, IP_FREEBIND, 1, "an address that may come later");
   bind_or_say_why(fd, address, shareable);
-  if (settings.buffer) enlarge_buffer(fd, *settings.buffer);
+  set_buffer(fd, settings.buffer);
   // The first socket of a machine to ask wakes the stamping, which takes the kernel a moment: a datagram that comes
   // within it is stamped when it is read.
   set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1, "receive times");
@@ -251,6 +254,8 @@ std::string ReceiveSocket::why_nothing_can_come() const {
   const std::lock_guard lock(mutex_);
   return trouble_;
 }
+
+int ReceiveSocket::granted_buffer() const noexcept { return granted_buffer_of(socket_.get()); }
 
 std::uint64_t ReceiveSocket::kernel_drops() const noexcept {
   const std::lock_guard lock(mutex_);

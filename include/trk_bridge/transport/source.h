@@ -51,6 +51,8 @@ struct SourceStatistics {
   std::uint64_t malformed = 0;
   std::uint64_t refused = 0;              ///< datagrams of senders that are not allowed
   std::uint64_t kernel_drops = 0;         ///< datagrams the kernel threw away because nobody read in time
+  std::uint64_t receive_buffer = 0;       ///< bytes the kernel granted for datagrams not read yet; 0: not a socket
+  std::uint64_t wanted_buffer = 0;        ///< bytes that were asked for
   std::uint64_t overwritten = 0;          ///< shared memory: sets written and replaced before they were seen
   std::uint64_t unknown_format_bits = 0;  ///< records with bits above wire::known_format_bits
   std::uint64_t reattached = 0;           ///< shared memory: segments attached to after the first

@@ -258,6 +258,16 @@ TEST_F(Diagnostics, OnlyGrowthIsAFinding) {
   expect(Level::warn, camera::describe(camera::CameraReason::not_a_rotation));
 }
 
+TEST_F(Diagnostics, TheReceiveBufferIsWhatWasGranted) {
+  EXPECT_EQ(value("receive buffer"), "none") << "shared memory and files have none";
+  now.source.receive_buffer = now.source.wanted_buffer = 8388608;
+  EXPECT_EQ(value("receive buffer"), "8388608 bytes");
+  now.source.receive_buffer = 212992;
+  EXPECT_EQ(value("receive buffer"), "212992 of 8388608 bytes: net.core.rmem_max allows no more");
+  now.source.kernel_drops = before.source.kernel_drops + 1;
+  expect(Level::warn, "net.core.rmem_max");
+}
+
 TEST_F(Diagnostics, NoCameraInfoSaysWhy) {
   now.camera.without_camera_info = 100;
   now.camera.info_reason = camera::CameraReason::not_monotonic;

@@ -1,9 +1,14 @@
 // The UDP source against plain sockets on the loopback.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <ctime>
+#include <fstream>
 #include <random>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -173,6 +178,59 @@ TEST(UdpSource, CountsWhatTheKernelDropped) {
   EXPECT_GT(received, 0u);
   EXPECT_GT(source->statistics().kernel_drops, 0u);
   EXPECT_EQ(source->statistics().kernel_drops, sent - received);
+}
+
+/// Sends `fields` of 256 cameras back to back, after their constants.
+std::uint64_t send_256_cameras(std::uint16_t port, int fields) {
+  const PlainSocket tracker;
+  std::uint64_t sent = 0;
+  for (std::uint32_t id = 1; id <= 256; ++id, ++sent) {
+    tracker.send(test::datagram(test::constants(1920, id)), "127.0.0.1", port);
+  }
+  for (int field = 0; field < fields; ++field) {
+    for (std::uint32_t id = 1; id <= 256; ++id, ++sent) {
+      tracker.send(test::datagram(test::params(static_cast<std::uint64_t>(field), id)), "127.0.0.1", port);
+    }
+  }
+  return sent;
+}
+
+TEST(UdpSource, HoldsAFifthOfASecondOf256Cameras) {
+  const auto source = open_source("udp://127.0.0.1:0");
+  const auto s = source->statistics();
+  if (s.receive_buffer < s.wanted_buffer) GTEST_SKIP() << "the kernel grants " << s.receive_buffer << " bytes";
+  const std::uint64_t sent = send_256_cameras(port_of(*source), 120 / 5);
+  std::vector<std::uint64_t> counters(257);
+  Reception reception;
+  while (source->receive(reception, std::chrono::nanoseconds::zero()) == Event::sample) {
+    const auto* params = std::get_if<wire::CameraParams>(&reception.sample.record);
+    if (params == nullptr) continue;
+    ASSERT_LE(params->id, 256u);
+    ASSERT_EQ(params->counter, counters[params->id]++) << "camera " << params->id;
+  }
+  EXPECT_EQ(source->statistics().records, sent);
+  EXPECT_EQ(source->statistics().kernel_drops, 0u);
+}
+
+TEST(UdpSource, SaysWhatReceiveBufferWasGranted) {
+  EXPECT_EQ(open_source("udp://127.0.0.1:0?buffer=65536")->statistics().receive_buffer, 65536u);
+  // Without privileges, net.core.rmem_max at most.
+  std::uint64_t most = 0;
+  std::ifstream("/proc/sys/net/core/rmem_max") >> most;
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);
+    const auto s = open_source("udp://127.0.0.1:0")->statistics();
+    if (s.wanted_buffer != 8388608 || s.receive_buffer != std::min<std::uint64_t>(most, 8388608)) ::_exit(3);
+    const std::string error = open_error("udp://127.0.0.1:0?buffer=1073741823");
+    const std::string refusal = "buffer = 1073741823: the kernel grants " + std::to_string(most) + " bytes";
+    ::_exit(most >= 1073741823 || error.find(refusal) != std::string::npos ? 0 : 4);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST(UdpSource, OneBadDatagramCostsThatDatagram) {
