@@ -274,8 +274,7 @@ ReadResult Link::read(wire::CameraParams& into, transport::Fault& fault) noexcep
 }
 
 ReadResult Link::read(wire::CameraConstants& into, transport::Fault& fault) noexcept {
-  if (!segment_) return ReadResult::nothing;
-  if (!constants_unread_ && segment_->constants_counter() == constants_read_) return ReadResult::nothing;
+  if (!has_new_constants()) return ReadResult::nothing;
   RecordImage image;
   if (!segment_->copy_constants(image)) {
     fault = record_fault(RecordProblem::unsteady, *segment_);

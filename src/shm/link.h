@@ -76,8 +76,11 @@ class Link {
   const Segment* segment() const noexcept { return segment_ ? &*segment_ : nullptr; }
   /// Segments attached to so far.
   std::uint64_t attached() const noexcept { return attached_; }
-  /// Whether reading parameters would not give `nothing`.
+  /// Whether reading parameters (constants) would not give `nothing`.
   bool has_new_params() const noexcept { return segment_ && segment_->params_counter() != params_read_; }
+  bool has_new_constants() const noexcept {
+    return segment_ && (constants_unread_ || segment_->constants_counter() != constants_read_);
+  }
   /// Parameters written and replaced by newer ones before they were read.
   std::uint64_t overwritten() const noexcept { return overwritten_; }
 

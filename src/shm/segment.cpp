@@ -8,7 +8,11 @@
 #include <ctime>
 #include <utility>
 
+#include <climits>
+
+#include <linux/futex.h>
 #include <sys/shm.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "slot.h"
@@ -349,6 +353,36 @@ bool Segment::copy_constants(RecordImage& into) const noexcept {
   return copy(layout_->constants_counter, &SegmentLayout::constants, &SegmentLayout::constants_size, into);
 }
 
+bool Segment::is_announced() const noexcept {
+  // In this order: the announcement is the first that a writer stores.
+  const std::uint16_t counter = params_counter();
+  const std::uint32_t announced = __atomic_load_n(at<std::uint32_t>(base_, page_rest::announcement), __ATOMIC_ACQUIRE);
+  const auto ahead = static_cast<std::uint16_t>(announced - counter);
+  constexpr std::uint16_t most_between_two_loads = 16;
+  return (announced & 0xFFFF0000U) == announcement_mark && ahead < most_between_two_loads;
+}
+
+Segment::Waiter Segment::wait_for_write() const noexcept {
+  auto* const word = at<std::uint32_t>(base_, page_rest::wake_word);
+  return {word, __atomic_fetch_or(word, 1U, __ATOMIC_SEQ_CST) | 1U};
+}
+
+void Segment::announce() noexcept {
+  const auto next = static_cast<std::uint16_t>(params_counter() + 1U);
+  __atomic_store_n(at<std::uint32_t>(base_, page_rest::announcement), announcement_mark | next, __ATOMIC_RELAXED);
+}
+
+// Either this sees that somebody waits, or who waits sees what was written: both store first and look then.
+void Segment::wake() noexcept {
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  auto* const word = at<std::uint32_t>(base_, page_rest::wake_word);
+  std::uint32_t value = __atomic_load_n(word, __ATOMIC_RELAXED);
+  if (value % 2 == 0) return;
+  // Where it fails, another writer has done the same.
+  if (!__atomic_compare_exchange_n(word, &value, value + 1, false, __ATOMIC_SEQ_CST, __ATOMIC_RELAXED)) return;
+  ::syscall(SYS_futex, word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
+}
+
 void Segment::put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept {
   auto* counter = at<std::uint16_t>(base_, counter_at);
   const auto next = static_cast<std::uint16_t>(__atomic_load_n(counter, __ATOMIC_RELAXED) + 1U);
@@ -356,13 +390,14 @@ void Segment::put(std::size_t counter_at, const std::array<std::size_t, 2>& elem
   std::atomic_thread_fence(std::memory_order_release);
   copy_words_in(image.data(), image.size(), base_ + elements[next & 1U]);
   __atomic_store_n(counter, next, __ATOMIC_RELEASE);
+  wake();
 }
 
 tl::expected<void, wire::Fault> Segment::write(const wire::CameraParams& params) noexcept {
   wire::Buffer buffer;
   const auto image = wire::to_image(params, layout_->record, buffer);
   if (!image) return tl::unexpected(image.error());
-  put(layout_->params_counter, layout_->params, *image);
+  write_params(*image);
   return {};
 }
 

@@ -138,6 +138,16 @@ class Segment {
 
   std::uint16_t params_counter() const noexcept { return counter(layout_->params_counter); }
   std::uint16_t constants_counter() const noexcept { return counter(layout_->constants_counter); }
+  /// Whether the newest parameters are of a writer that wakes who waits: one of this package, not of the field.
+  bool is_announced() const noexcept;
+  /// Somebody who waits until the word is no longer `value`.
+  struct Waiter {
+    const std::uint32_t* word;
+    std::uint32_t value;
+  };
+  /// The next write of a writer that wakes changes the word and wakes who sleeps for it (a futex between processes).
+  /// What was written before is not missed by who looks after this call and then sleeps. Must be writable().
+  Waiter wait_for_write() const noexcept;
   /// Copies the newest record. False when a writer changed it every time: then `into` holds nothing of use.
   [[nodiscard]] bool copy_params(RecordImage& into) const noexcept;
   /// Copies the newest constants. False as above.
@@ -148,7 +158,10 @@ class Segment {
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraParams&) noexcept;
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraConstants&) noexcept;
   /// Writes parameters that are in the segment's layout already, of its `params_size`.
-  void write_params(std::string_view image) noexcept { put(layout_->params_counter, layout_->params, image); }
+  void write_params(std::string_view image) noexcept {
+    announce();
+    put(layout_->params_counter, layout_->params, image);
+  }
 
   /// trkMemRecreate: removes this segment and goes on in a fresh one with the same contents. On a fault there is no
   /// segment left: the object is closed.
@@ -164,6 +177,8 @@ class Segment {
   }
   bool copy(std::size_t counter_at, std::array<std::size_t, 2> SegmentLayout::*elements,
             std::size_t SegmentLayout::*size, RecordImage& into) const noexcept;
+  void announce() noexcept;
+  void wake() noexcept;
   void put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept;
   void count_in() noexcept;
   void correct_count() noexcept;

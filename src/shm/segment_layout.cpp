@@ -23,6 +23,7 @@ constexpr bool is_tight(const SegmentLayout& l) {
          l.constants[1] == l.constants[0] + l.constants_size && l.size == l.constants[1] + l.constants_size &&
          l.params_size % 4 == 0 && l.constants_size % 4 == 0 && l.params[0] % 4 == 0;
 }
+static_assert(page_rest::announcement >= layouts[0].size, "the first is the largest");
 static_assert(is_tight(layouts[0]) && is_tight(layouts[1]) && is_tight(layouts[2]) && is_tight(layouts[3]));
 
 constexpr bool fit_together(const SegmentLayout& l, const SegmentLayout& smaller) {

@@ -29,6 +29,16 @@ inline constexpr wire::Layout default_layout{
     wire::Generation::identified, wire::Abi::lp64,
     __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? wire::ByteOrder::little : wire::ByteOrder::big};
 
+/// Two 32-bit words in the rest of the page behind a segment, which is mapped and shared like the segment and which no
+/// program of the field knows. 0 in a new segment.
+namespace page_rest {
+/// announcement_mark and the counter of the parameters that were last written by a program that wakes readers.
+inline constexpr std::size_t announcement = 1024;
+/// A futex. Odd: somebody waits for the next write, which makes it even, another number than all before, and wakes.
+inline constexpr std::size_t wake_word = 1028;
+}  // namespace page_rest
+inline constexpr std::uint32_t announcement_mark = 0x77610000;
+
 /// Null when no segment has this size.
 const SegmentLayout* layout_of_size(std::size_t) noexcept;
 /// Null when no segment on this machine has this record layout.

@@ -1,10 +1,23 @@
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <climits>
+#include <cstdint>
+#include <ctime>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include <linux/futex.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
 #include "base/clock.h"
+#include "cadence.h"
 #include "link.h"
 #include "scheme.h"
 #include "transport/counted_source.h"
@@ -18,9 +31,64 @@ using std::chrono::nanoseconds;
 using transport::Event;
 using transport::SourceState;
 
-// How late a record is seen at most. Nothing wakes a reader of shared memory, so it has to look.
-// A segment full of what is no record is not looked at more often either.
-constexpr nanoseconds poll_period = std::chrono::microseconds(250);
+/// A segment full of what is no record is not looked at more often.
+constexpr nanoseconds malformed_period = std::chrono::microseconds(250);
+
+/// So long after the last set of a writer that wakes nobody, such a writer is still reckoned with.
+constexpr nanoseconds quiet_writer_memory = std::chrono::seconds(2);
+
+std::int64_t nanoseconds_of(Clock::time_point time) noexcept { return nanoseconds(time.time_since_epoch()).count(); }
+
+/// ns that this thread has had of a core.
+std::int64_t cpu_time() noexcept {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
+}
+
+/// Sleeps of this thread end as exactly as the machine can, not within 50 us.
+void end_sleeps_exactly() noexcept {
+  static thread_local const int done = ::prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0);
+  static_cast<void>(done);
+}
+
+/// Sleeps that a writer in another process and stop() end. Linux 5.16 can; elsewhere only stop() and the time do.
+class Sleeper {
+ public:
+  /// False: nobody can be waited for, and the caller has to look.
+  bool can_be_woken() const noexcept { return has_futex_waitv_; }
+  /// Ends every sleep, for good. Any thread, safe in a signal handler; errno stays.
+  void stop() noexcept {
+    const int saved = errno;
+    stopped_ = 1;
+    ::syscall(SYS_futex, &stopped_, FUTEX_WAKE_PRIVATE, INT_MAX, nullptr, nullptr, 0);
+    errno = saved;
+  }
+  /// False where the system cannot do it; can_be_woken() is false from then on.
+  bool sleep(Clock::time_point until, const std::optional<Segment::Waiter>& writer) noexcept {
+    struct Futex {
+      std::uint64_t value, address;
+      std::uint32_t flags, reserved;
+    };
+    constexpr std::uint32_t of_32_bits = 2;
+    std::array<Futex, 2> futexes{
+        {{0, reinterpret_cast<std::uintptr_t>(&stopped_), of_32_bits | FUTEX_PRIVATE_FLAG, 0}}};
+    if (writer) futexes[1] = {writer->value, reinterpret_cast<std::uintptr_t>(writer->word), of_32_bits, 0};
+    const std::int64_t at = nanoseconds_of(until);
+    timespec time{};
+    time.tv_sec = static_cast<time_t>(at / 1'000'000'000);
+    time.tv_nsec = static_cast<long>(at % 1'000'000'000);
+    constexpr long futex_waitv = 449;  // on every architecture
+    const long woken = ::syscall(futex_waitv, futexes.data(), writer ? 2 : 1, 0, &time, CLOCK_MONOTONIC);
+    has_futex_waitv_ = woken >= 0 || errno == EAGAIN || errno == EINTR || errno == ETIMEDOUT;
+    return has_futex_waitv_;
+  }
+
+ private:
+  static_assert(std::atomic<std::uint32_t>::is_always_lock_free && sizeof(std::atomic<std::uint32_t>) == 4);
+  std::atomic<std::uint32_t> stopped_{0};
+  bool has_futex_waitv_ = true;
+};
 
 /// Whether a segment is attached.
 struct Attachment {
@@ -30,7 +98,8 @@ struct Attachment {
   SlotFault why{SlotProblem::no_file};
 };
 
-/// Looks for a segment until there is one, then polls its counters.
+/// Looks for a segment until there is one, then sleeps until a writer wakes it or, for those that do not, until it is
+/// time to look.
 class ShmSource final : public transport::CountedSource {
  public:
   explicit ShmSource(const Settings& settings)
@@ -45,24 +114,24 @@ class ShmSource final : public transport::CountedSource {
     keep(Clock::now());
   }
 
+  void stop() noexcept override {
+    CountedSource::stop();
+    sleeper_.stop();
+  }
+
   Event receive(transport::Reception& into, nanoseconds wait) override {
     const auto begin = Clock::now();
     for (auto now = begin;; now = Clock::now()) {
       if (const Event end = final_event(); end != Event::sample) return end;
       keep(now);
       if (now >= next_look_) {
-        if (const Event event = look(into); event != Event::idle) return event;
+        if (const Event event = look(into, now); event != Event::idle) return event;
       }
       const bool endless = wait < nanoseconds::zero();
       // As a difference, for `begin + wait` may be past what the clock can represent.
-      const nanoseconds left = endless ? nanoseconds::max() : wait - (Clock::now() - begin);
+      const nanoseconds left = endless ? nanoseconds::max() : wait - (now - begin);
       if (left <= nanoseconds::zero()) return Event::idle;
-      const nanoseconds period = link_.segment() != nullptr ? poll_period : nanoseconds(Link::attach_period);
-      // A stop is seen above.
-      const transport::Deadline next_look(std::min(left, period));
-      if (transport::wait_readable(transport::no_descriptor, stop_event(), next_look) == transport::Wake::failed) {
-        return failed(errno);
-      }
+      if (!sleep(now, left)) return failed(errno);
     }
   }
 
@@ -74,6 +143,7 @@ class ShmSource final : public transport::CountedSource {
                          attachment_.has_32_bit_program != has_32_bit_program ||
                          (!kept && !(attachment_.why == kept.error()));
     if (!changed) return;
+    if (attachment_.attached != link_.attached()) cadence_ = Cadence(nanoseconds_of(now));
     attachment_.absent = !kept;
     if (!kept) attachment_.why = kept.error();
     attachment_.attached = link_.attached();
@@ -81,13 +151,61 @@ class ShmSource final : public transport::CountedSource {
     published_.store(attachment_);
   }
 
+  /// Until it is time to look again, `most` at most, or a writer or stop() says so. False, with errno: it cannot sleep.
+  bool sleep(Clock::time_point now, nanoseconds most) {
+    const Segment* const segment = link_.segment();
+    nanoseconds time = Link::attach_period;
+    std::optional<Segment::Waiter> writer;
+    if (segment != nullptr) {
+      time = is_woken(now) ? nanoseconds(Cadence::slowest)
+                           : nanoseconds(std::max(cadence_.next(nanoseconds_of(now)), nanoseconds_of(next_look_)) -
+                                         nanoseconds_of(now));
+      if (time <= nanoseconds::zero()) {
+        ::sched_yield();
+        return true;
+      }
+      if (can_be_woken()) {
+        writer = segment->wait_for_write();
+        if ((link_.has_new_params() || link_.has_new_constants()) && now >= next_look_) return true;
+      }
+    }
+    end_sleeps_exactly();
+    time = std::min(time, most);
+    const std::int64_t cpu_before = cpu_time();
+    bool has_slept = sleeper_.can_be_woken() && sleeper_.sleep(now + time, writer);
+    if (!has_slept) {
+      const transport::Deadline end(time);
+      has_slept = transport::wait_readable(transport::no_descriptor, stop_event(), end) != transport::Wake::failed;
+    }
+    cadence_.slept(cpu_time() - cpu_before);
+    return has_slept;
+  }
+
+  /// By writers that do.
+  bool can_be_woken() const noexcept { return sleeper_.can_be_woken() && link_.segment()->writable(); }
+  /// Whether every writer does, as far as known.
+  bool is_woken(Clock::time_point now) const noexcept {
+    return can_be_woken() && link_.segment()->is_announced() && now >= look_until_;
+  }
+
+  /// What a look at `now` found of parameters.
+  void learn(Clock::time_point now, unsigned sets) noexcept {
+    // One that was replaced before it was seen may have been of another writer.
+    if (sets > 1 || (sets > 0 && !link_.segment()->is_announced())) look_until_ = now + quiet_writer_memory;
+    if (!is_woken(now)) cadence_.looked(nanoseconds_of(now), sets);
+  }
+
   /// Constants first: what follows is understood by them.
-  Event look(transport::Reception& into) {
+  Event look(transport::Reception& into, Clock::time_point now) {
     if (link_.segment() == nullptr) return Event::idle;
     ReadResult met = link_.read(constants_, into.fault);
     const bool is_constants = met != ReadResult::nothing;
-    if (!is_constants) met = link_.read(params_, into.fault);
-    if (met == ReadResult::nothing) return Event::idle;
+    if (!is_constants) {
+      met = link_.read(params_, into.fault);
+      const bool is_new = met != ReadResult::nothing;
+      learn(now, is_new ? static_cast<unsigned>(1 + link_.overwritten() - attachment_.overwritten) : 0);
+      if (!is_new) return Event::idle;
+    }
     transport::Sample& sample = into.sample;
     sample = {};
     sample.arrival = base::wall_now();
@@ -99,7 +217,7 @@ class ShmSource final : public transport::CountedSource {
       published_.store(attachment_);
     }
     if (met == ReadResult::malformed) {
-      next_look_ = Clock::now() + poll_period;
+      next_look_ = Clock::now() + malformed_period;
       return malformed();
     }
     if (is_constants) {
@@ -128,7 +246,10 @@ class ShmSource final : public transport::CountedSource {
 
   const int slot_;
   Link link_;
-  Clock::time_point next_look_{};
+  Sleeper sleeper_;
+  Cadence cadence_{0};
+  Clock::time_point look_until_{};  // for a writer that wakes nobody
+  Clock::time_point next_look_{};   // not before
   wire::CameraParams params_;
   wire::CameraConstants constants_;
   Attachment attachment_;

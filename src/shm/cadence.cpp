@@ -1,0 +1,167 @@
+#include "cadence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trk_bridge::shm {
+namespace {
+
+/// ns of a core for falling asleep and waking up: limits of what is believed.
+constexpr double least_sleep_cost = 5'000;
+constexpr double most_sleep_cost = 60'000;
+/// ns of a core that are saved at most, and owed at most.
+constexpr double most_credit = 500'000;
+constexpr double most_debt = 20'000;
+constexpr double most_learning_credit = 8'000'000;
+/// ns: less is not worth a sleep.
+constexpr double shortest_sleep = 60'000;
+/// ns between looks while the period is not known.
+constexpr double learning_sleep = 250'000;
+/// Sleeps that are longer say how late a sleep before an expected set ends.
+constexpr double long_sleep = 1'000'000;
+constexpr double longest_lateness = 400'000;
+/// Expected moments without a set, after which the rhythm is over.
+constexpr int most_missed = 8;
+/// Sets in a row at another time than expected, which are another rhythm.
+constexpr int most_strays = 2;
+/// Sets before any can be at another time than expected.
+constexpr unsigned first_sets = 4;
+/// A set is looked for so many mean deviations around its moment.
+constexpr double window = 3;
+constexpr double least_deviation = 5'000;
+
+}  // namespace
+
+Cadence::Cadence(std::int64_t now) noexcept
+    : last_look_(now), last_found_(now), credit_(most_credit), learning_credit_(most_learning_credit) {}
+
+void Cadence::looked(std::int64_t now, unsigned sets) noexcept {
+  pay(now);
+  expected_ -= static_cast<double>(now - last_look_);
+  if (sets > 0) {
+    found(now, sets);
+  } else if (is_known() && -expected_ > period_ / 2) {
+    expected_ += period_;
+    if (++missed_ > most_missed) forget();
+  }
+  last_look_ = now;
+  before_ = Before::nothing;
+}
+
+void Cadence::slept(std::int64_t cost) noexcept {
+  const double counted = std::clamp(static_cast<double>(cost), least_sleep_cost, most_sleep_cost);
+  sleep_cost_ += (counted - sleep_cost_) / 16;
+  cost_ += counted;
+}
+
+void Cadence::pay(std::int64_t now) noexcept {
+  const auto since = static_cast<double>(now - last_look_);
+  const double cost = before_ == Before::nothing ? std::min(since, sleep_cost_) : cost_;
+  cost_ = 0;
+  if (is_known() || learning_credit_ < sleep_cost_) {
+    credit_ -= cost;
+  } else {
+    learning_credit_ -= cost;
+  }
+  credit_ = std::clamp(credit_ + share * since, -most_debt, most_credit);
+  learning_credit_ = std::min(learning_credit_ + share * since, most_learning_credit);
+  // A sleep may have been ended before its time.
+  if (before_ != Before::sleep || now < planned_) return;
+  const double late = std::clamp(static_cast<double>(now - planned_), 0.0, longest_lateness);
+  late_ += (late - late_) / 16;
+  late_deviation_ += (std::abs(late - late_) - late_deviation_) / 16;
+}
+
+void Cadence::found(std::int64_t now, unsigned sets) noexcept {
+  const auto since = static_cast<double>(now - last_look_);
+  if (!is_known()) return learn(now, sets);
+  const bool is_faster = missed_ == 0 && since < (sets - 1) * period_ - 4 * deviation_;
+  if (is_faster) {
+    forget();
+    return learn(now, sets);
+  }
+  missed_ = 0;
+  // It was written after the look before; what is expected within that time is not contradicted.
+  const double expected = expected_ + (sets - 1) * period_;
+  double error = std::clamp(expected, -since, 0.0) - expected;
+  const double written = expected + error;
+  const double interval = written + static_cast<double>(now - last_found_);
+  const double periods = std::max(std::round(interval / period_), static_cast<double>(sets));
+  error -= period_ * std::round(error / period_);
+  // Found after a sleep that went past the moment: it may have been there for long.
+  if (error == 0 && before_ == Before::sleep) error = -deviation_ / 4;
+  const bool is_stray = std::abs(error) > 4 * deviation_ && tracked_ >= first_sets;
+  strays_ = is_stray ? strays_ + 1 : 0;
+  if (strays_ == most_strays && std::abs(error) > period_ / 4) return forget();
+  tracked_ = std::min(tracked_ + 1, 32U);
+  const double counted = is_stray ? 4 * deviation_ : std::abs(error);
+  deviation_ += (counted - deviation_) / std::min(tracked_ + 1, 16U);
+  deviation_ = std::clamp(deviation_, least_deviation, period_ / 4);
+  // A set that strays alone was held up; the next ones come as ever. With the second the writer has moved. Otherwise
+  // half way: clocks of writers are steady, but those that sleep from set to set are not.
+  const double moved = !is_stray ? written - error / 2 : strays_ < most_strays ? written - error : written;
+  if (!is_stray) period_ += (interval / periods - period_) / (tracked_ + 1);
+  if (strays_ == most_strays) strays_ = 0;
+  last_found_ = now + static_cast<std::int64_t>(is_stray ? moved : written);
+  expected_ = moved + period_;
+}
+
+// Two intervals: their mean is the period also where two writers take turns.
+void Cadence::learn(std::int64_t now, unsigned sets) noexcept {
+  const double half = static_cast<double>(now - last_look_) / 2;
+  const auto written = now - static_cast<std::int64_t>(half);
+  const double interval = static_cast<double>(written - last_found_) / sets;
+  const double uncertainty = std::max(half, least_deviation);
+  const bool is_exact = has_found_ && uncertainty + uncertainty_ < interval / 2;
+  if (is_exact && interval_ > 0) {
+    period_ = (interval + interval_) / 2;
+    deviation_ = std::min(std::abs(interval - interval_) / 2 + uncertainty, period_ / 4);
+    expected_ = period_ - half;
+    tracked_ = 0;
+    strays_ = missed_ = 0;
+  }
+  interval_ = is_exact ? interval : 0;
+  is_fast_ = interval < 2 * affordable_sleep();
+  has_found_ = true;
+  uncertainty_ = uncertainty;
+  last_found_ = written;
+}
+
+void Cadence::forget() noexcept {
+  period_ = 0;
+  has_found_ = false;
+  interval_ = 0;
+  strays_ = missed_ = 0;
+}
+
+double Cadence::sleep_while_unknown(std::int64_t now) noexcept {
+  // Without credit the sets of a fast writer would be replaced before they are seen.
+  const double least = is_fast_ || learning_credit_ >= sleep_cost_ ? learning_sleep : affordable_sleep();
+  return std::clamp(static_cast<double>(now - last_found_) / 16, least, static_cast<double>(slowest));
+}
+
+std::int64_t Cadence::next(std::int64_t now) noexcept {
+  double sleep = 0;
+  if (!is_known()) {
+    sleep = sleep_while_unknown(now);
+  } else {
+    const double ahead = expected_ - static_cast<double>(now - last_look_);
+    const double end = ahead + window * deviation_;
+    const bool can_pay = credit_ >= sleep_cost_;
+    const double begin = (can_pay ? ahead - window * deviation_ - 2 * late_deviation_ : ahead + 2 * deviation_) - late_;
+    if (begin > shortest_sleep) {
+      sleep = begin;
+    } else if (end > 0) {
+      if (credit_ < end) sleep = std::max(shortest_sleep, end * sleep_cost_ / std::max(credit_, sleep_cost_));
+    } else {
+      const double next_begin = ahead + period_ - window * deviation_ - 2 * late_deviation_ - late_;
+      sleep = can_pay ? -ahead / 4 : std::min({-ahead, affordable_sleep(), period_ / 4});
+      sleep = std::max(std::min(sleep, next_begin), shortest_sleep);
+    }
+  }
+  before_ = sleep == 0 ? Before::nothing : sleep < long_sleep ? Before::short_sleep : Before::sleep;
+  planned_ = now + static_cast<std::int64_t>(sleep);
+  return planned_;
+}
+
+}  // namespace trk_bridge::shm
