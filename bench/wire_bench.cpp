@@ -1,81 +1,238 @@
-// Time to read and to write one record.
+// Time to read and to write one record, each beside what it is measured by: ASCII by sscanf and sprintf with the
+// field's conversions (doc/wire_formats.md), binary by two copies of the 200 bytes.
 #include <benchmark/benchmark.h>
 
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "transport/datagram.h"
+#include "trk/datagram_decoder.h"
+#include "trk/datagram_encoder.h"
+#include "trk_bridge/transport/sample.h"
 #include "trk_bridge/wire/codec.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::wire {
+namespace trk_bridge {
 namespace {
 
-CameraParams sample(std::uint32_t format) {
+using wire::CameraParams;
+
+constexpr std::uint32_t euler = wire::euler | wire::studio_y_up;
+constexpr std::uint32_t matrix = wire::studio_y_up;
+constexpr std::size_t many = 512;
+
+/// A shot: the camera moves and zooms, and with the zoom the lens changes; the iris stays.
+CameraParams field_of_shot(std::uint32_t format, std::size_t i) {
+  const double t = 0.02 * static_cast<double>(i);
+  const double pan = 0.7 * std::sin(0.31 * t), tilt = 0.2 * std::sin(0.53 * t), zoom = 1.5 + std::sin(0.17 * t);
   CameraParams p;
-  p.id = 1;
   p.format = format;
-  p.euler = {-2.3899808692593005, 19.819106827943756, 2.815090112037268,
-             6.71814020049942,    15.675059833006529, 111.77870286752176};
-  p.matrix = {0.8, 0.6, 0, 0, -0.6, 0.8, 0, 0, 0, 0, 1, 0, -11.120743747916517, 1.358512094614523, 1.7246312086932999,
-              1};
-  p.fov = 18.321989392933812;
-  p.center_x = 0.06199242429905322;
-  p.center_y = 0.054927725532342375;
-  p.k1 = -0.0006293334524622769;
-  p.k2 = 4.265851678489512e-06;
-  p.focdist = 29.3234281531595;
-  p.aperture = 21.639951728912713;
-  p.counter = 4240746277;
+  if (wire::has(format, wire::euler)) {
+    constexpr double degrees = 57.29577951308232;
+    p.euler = {2 * std::sin(0.11 * t), -3 + std::cos(0.13 * t),      1.75 + 0.4 * std::sin(0.2 * t),
+               degrees * pan,          degrees * (tilt - 0.3 * pan), 0.05 * std::sin(t)};
+  } else {
+    p.matrix = {std::cos(pan),
+                std::sin(pan),
+                0,
+                0,
+                -std::sin(pan) * std::cos(tilt),
+                std::cos(pan) * std::cos(tilt),
+                std::sin(tilt),
+                0,
+                std::sin(pan) * std::sin(tilt),
+                -std::cos(pan) * std::sin(tilt),
+                std::cos(tilt),
+                0,
+                2 * std::sin(0.11 * t),
+                -3 + std::cos(0.13 * t),
+                1.75 + 0.4 * std::sin(0.2 * t),
+                1};
+  }
+  p.fov = 12 * zoom;
+  p.center_x = 0.0619924 * zoom;
+  p.center_y = -0.0549277 / zoom;
+  p.k1 = -0.00062933 / zoom;
+  p.k2 = 4.265851e-06 / (zoom * zoom);
+  p.focdist = 4.5 + std::sin(0.7 * t);
+  p.aperture = 4;
+  p.counter = 4240746277 + i;
   return p;
 }
 
-WireForm form_of(bool ascii) {
-  return {ascii ? Encoding::ascii : Encoding::binary, {Generation::identified, Abi::lp64, ByteOrder::little}};
+std::vector<CameraParams> shot(std::uint32_t format) {
+  std::vector<CameraParams> all;
+  for (std::size_t i = 0; i < many; ++i) all.push_back(field_of_shot(format, i));
+  return all;
 }
 
-/// Arguments: ASCII or binary, format mask.
-void write_params(benchmark::State& state) {
-  const WireForm form = form_of(state.range(0) != 0);
-  const CameraParams params = sample(static_cast<std::uint32_t>(state.range(1)));
-  Buffer buffer;
-  for (auto _ : state) {
-    auto written = encode(params, form, buffer);
-    if (!written) state.SkipWithError(describe(written.error()).c_str());
-    benchmark::DoNotOptimize(written);
+/// ASCII as the field prints it.
+std::size_t field_print(const CameraParams& p, char* to) {
+  const wire::Euler& e = p.euler;
+  const auto& m = p.matrix;
+  const unsigned long counter = p.counter;
+  if (wire::has(p.format, wire::euler)) {
+    return static_cast<std::size_t>(std::sprintf(to, "%X %g %g %g %g %g %g %g %e %e %e %e %g %g %lu", p.format, e.x,
+                                                 e.y, e.z, e.pan, e.tilt, e.roll, p.fov, p.center_x, p.center_y, p.k1,
+                                                 p.k2, p.focdist, p.aperture, counter));
   }
-  state.SetItemsProcessed(state.iterations());
+  return static_cast<std::size_t>(
+      std::sprintf(to, "%X %.7e %.7e %.7e %.7e %.7e %.7e %.7e %.7e %.7e %.7e %.7e %.7e %g %e %e %e %e %g %g %lu",
+                   p.format, m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10], m[12], m[13], m[14], p.fov,
+                   p.center_x, p.center_y, p.k1, p.k2, p.focdist, p.aperture, counter));
 }
 
-void read_params(benchmark::State& state, const LayoutChoice& given) {
-  Buffer buffer;
-  const auto written = encode(sample(static_cast<std::uint32_t>(state.range(1))), form_of(state.range(0) != 0), buffer);
+/// ASCII as the field reads it.
+bool field_scan(const char* text, CameraParams& p) {
+  int skip = 0;
+  if (std::sscanf(text, "%x%n", &p.format, &skip) != 1) return false;
+  text += skip;
+  unsigned long counter = 0;
+  bool good = false;
+  if (wire::has(p.format, wire::euler)) {
+    wire::Euler& e = p.euler;
+    good =
+        std::sscanf(text, "%lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lu", &e.x, &e.y, &e.z, &e.pan, &e.tilt,
+                    &e.roll, &p.fov, &p.center_x, &p.center_y, &p.k1, &p.k2, &p.focdist, &p.aperture, &counter) == 14;
+  } else {
+    auto& m = p.matrix;
+    good = std::sscanf(text, "%lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lu", &m[0],
+                       &m[1], &m[2], &m[4], &m[5], &m[6], &m[8], &m[9], &m[10], &m[12], &m[13], &m[14], &p.fov,
+                       &p.center_x, &p.center_y, &p.k1, &p.k2, &p.focdist, &p.aperture, &counter) == 20;
+    m[3] = m[7] = m[11] = 0;
+    m[15] = 1;
+  }
+  p.counter = counter;
+  return good;
+}
+
+wire::WireForm form_of(wire::Encoding encoding) {
+  return {encoding, {wire::Generation::identified, wire::Abi::lp64, wire::ByteOrder::little}};
+}
+
+/// Whose digits a text has: the field's 6 to 8, or ours, which are all.
+enum class Digits { few, all };
+
+std::string datagram_of(const CameraParams& params, wire::Encoding encoding, Digits digits) {
+  if (encoding == wire::Encoding::ascii && digits == Digits::few) {
+    char text[wire::max_datagram];
+    return std::string("DMC01\0PA", 8) + std::string(text, field_print(params, text)) + '\0';
+  }
+  wire::Buffer buffer;
+  const auto written = wire::encode(params, form_of(encoding), buffer);
   if (!written) throw std::runtime_error(describe(written.error()));
-  LayoutDetector detector(given);
+  return std::string(*written);
+}
+
+std::vector<std::string> datagrams(std::uint32_t format, wire::Encoding encoding, Digits digits = Digits::all) {
+  std::vector<std::string> all;
+  for (const CameraParams& params : shot(format)) all.push_back(datagram_of(params, encoding, digits));
+  return all;
+}
+
+/// One after another, for ever.
+template <class T>
+class Ring {
+ public:
+  explicit Ring(std::vector<T> all) : all_(std::move(all)) {}
+  const T& next() noexcept { return all_[i_++ % many]; }
+
+ private:
+  std::vector<T> all_;
+  std::size_t i_ = 0;
+};
+
+/// A whole datagram to a sample.
+void decode(benchmark::State& state, std::vector<std::string> datagrams) {
+  Ring<std::string> ring(std::move(datagrams));
+  trk::DatagramDecoder decoder({});
+  transport::Sender sender;
+  sender.kind = transport::SenderKind::ipv4;
+  transport::Sample sample;
+  transport::Fault fault;
   for (auto _ : state) {
-    auto read = decode(*written, detector);
-    if (!read) state.SkipWithError(describe(read.error()).c_str());
-    benchmark::DoNotOptimize(read);
-  }
-  state.SetItemsProcessed(state.iterations());
-}
-
-void read_layout_detected(benchmark::State& state) { read_params(state, {}); }
-void read_layout_given(benchmark::State& state) {
-  read_params(state, {Generation::identified, Abi::lp64, ByteOrder::little});
-}
-
-void ascii_and_binary(benchmark::internal::Benchmark* b) {
-  b->ArgNames({"ascii", "format"});
-  for (const int ascii : {0, 1}) {
-    for (const int format : {0x012, 0x011}) b->Args({ascii, format});
+    decoder.begin(ring.next(), sender);
+    if (decoder.next(sample, fault) != transport::Decoder::Next::sample) state.SkipWithError(fault.name());
+    benchmark::DoNotOptimize(sample);
+    if (decoder.next(sample, fault) != transport::Decoder::Next::none) state.SkipWithError("more than one");
   }
 }
 
-BENCHMARK(read_layout_detected)->Apply(ascii_and_binary);
-BENCHMARK(read_layout_given)->ArgNames({"ascii", "format"})->Args({0, 0x012})->Args({0, 0x011});
-BENCHMARK(write_params)->Apply(ascii_and_binary);
+/// A record to a whole datagram.
+void encode(benchmark::State& state, std::uint32_t format, wire::Encoding encoding) {
+  Ring<CameraParams> ring(shot(format));
+  trk::DatagramEncoder encoder(form_of(encoding));
+  for (auto _ : state) {
+    if (!encoder.begin(ring.next())) state.SkipWithError("not encodable");
+    auto datagram = encoder.next();
+    benchmark::DoNotOptimize(datagram);
+    benchmark::ClobberMemory();
+    if (encoder.next()) state.SkipWithError("more than one");
+  }
+}
+
+void scan(benchmark::State& state, std::vector<std::string> datagrams) {
+  Ring<std::string> ring(std::move(datagrams));
+  CameraParams params;
+  for (auto _ : state) {
+    if (!field_scan(ring.next().c_str() + wire::header_size, params)) state.SkipWithError("not readable");
+    benchmark::DoNotOptimize(params);
+  }
+}
+
+void print(benchmark::State& state, std::uint32_t format) {
+  Ring<CameraParams> ring(shot(format));
+  char text[wire::max_datagram];
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(field_print(ring.next(), text));
+    benchmark::ClobberMemory();
+  }
+}
+
+void copy_twice(benchmark::State& state) {
+  Ring<std::string> ring(datagrams(euler, wire::Encoding::binary));
+  std::array<char, 200> a, b;
+  for (auto _ : state) {
+    std::memcpy(a.data(), ring.next().data() + wire::header_size, a.size());
+    benchmark::DoNotOptimize(a);
+    std::memcpy(b.data(), a.data(), b.size());
+    benchmark::DoNotOptimize(b);
+  }
+}
+
+void add(const std::string& name, std::uint32_t format) {
+  using wire::Encoding;
+  const auto run = [](const std::string& what, auto measure, auto... of) {
+    benchmark::RegisterBenchmark(what.c_str(), [=](benchmark::State& state) { measure(state, of...); });
+  };
+  for (const Digits digits : {Digits::few, Digits::all}) {
+    const auto texts = datagrams(format, Encoding::ascii, digits);
+    const std::string what = "BM_parse_" + name + (digits == Digits::few ? "_field_digits" : "_all_digits");
+    run(what + "/ours", decode, texts);
+    run(what + "/peer", scan, texts);
+  }
+  run("BM_print_" + name + "/ours", encode, format, Encoding::ascii);
+  run("BM_print_" + name + "/peer", print, format);
+  run("BM_decode_" + name + "/ours", decode, datagrams(format, Encoding::binary));
+  run("BM_decode_" + name + "/peer", copy_twice);
+  run("BM_encode_" + name + "/ours", encode, format, Encoding::binary);
+  run("BM_encode_" + name + "/peer", copy_twice);
+}
 
 }  // namespace
-}  // namespace trk_bridge::wire
+}  // namespace trk_bridge
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  trk_bridge::add("euler", trk_bridge::euler);
+  trk_bridge::add("matrix", trk_bridge::matrix);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

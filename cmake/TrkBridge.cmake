@@ -14,7 +14,9 @@ if(NOT TRK_BRIDGE_HAS_FROM_CHARS)
 endif()
 
 add_library(trk_bridge_options INTERFACE)
+# Nobody replaces a function of a library by another of its name, so that calls within one need no table.
 target_compile_options(trk_bridge_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+  -fno-semantic-interposition
   $<$<BOOL:${TRK_BRIDGE_WERROR}>:-Werror>)
 
 # trk_bridge_library(TARGET SOURCE... [EXPORT_AS NAME] [PUBLIC LIB...] [PRIVATE LIB...]): a room's library, shared and
@@ -27,7 +29,7 @@ function(trk_bridge_library name)
   # Other projects include its headers, and their compiler may begin with an older C++.
   target_compile_features(${name} PUBLIC cxx_std_17)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} trk_bridge_options)
-  set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN")
+  set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN" VISIBILITY_INLINES_HIDDEN ON)
   set(export)
   if(ARG_EXPORT_AS)
     add_library(trk_bridge::${ARG_EXPORT_AS} ALIAS ${name})

@@ -1,45 +1,45 @@
 #include "datagram_decoder.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "trk_bridge/transport/sample.h"
 
 namespace trk_bridge::trk {
 
 void DatagramDecoder::begin(std::string_view datagram, const transport::Sender& sender) noexcept {
-  decoded_ = decode(datagram, sender);
-  given_ = false;
+  datagram_ = datagram;
+  sender_ = sender;
 }
 
 transport::Decoder::Next DatagramDecoder::next(transport::Sample& into, transport::Fault& fault) noexcept {
-  if (given_) return Next::none;
-  given_ = true;
-  if (!decoded_) {
-    fault = decoded_.error();
+  if (!datagram_) return Next::none;
+  const auto form = decode(*std::exchange(datagram_, std::nullopt), into.record);
+  if (!form) {
+    fault = form.error();
     return Next::fault;
   }
-  into.record = decoded_->record;
-  into.origin = transport::origin_of(decoded_->form, decoded_->layout_guessed);
+  into.origin = transport::origin_of(form->form, form->layout_guessed);
   into.has_counter = into.has_lens = true;
   into.sample_time.reset();
   into.time_code.reset();
   return Next::sample;
 }
 
-tl::expected<wire::Decoded, wire::Fault> DatagramDecoder::decode(std::string_view datagram,
-                                                                 const transport::Sender& sender) noexcept {
-  if (Entry* known = find(sender)) {
+tl::expected<wire::DecodedForm, wire::Fault> DatagramDecoder::decode(std::string_view datagram,
+                                                                     wire::Record& into) noexcept {
+  if (Entry* known = find(sender_)) {
     known->last_used = ++uses_;
-    return wire::decode(datagram, known->detector);
+    return wire::decode(datagram, known->detector, into);
   }
   wire::LayoutDetector detector(layout_);
-  auto decoded = wire::decode(datagram, detector);
-  if (decoded) {
+  const auto form = wire::decode(datagram, detector, into);
+  if (form) {
     Entry& entry = place_for_new();
-    entry = {sender, detector, ++uses_};
+    entry = {sender_, detector, ++uses_};
     recent_ = static_cast<std::size_t>(&entry - entries_.data());
   }
-  return decoded;
+  return form;
 }
 
 DatagramDecoder::Entry* DatagramDecoder::find(const transport::Sender& sender) noexcept {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "transport/datagram.h"
@@ -30,13 +31,13 @@ class DatagramDecoder final : public transport::Decoder {
     std::uint64_t last_used = 0;
   };
 
-  tl::expected<wire::Decoded, wire::Fault> decode(std::string_view datagram, const transport::Sender& sender) noexcept;
+  tl::expected<wire::DecodedForm, wire::Fault> decode(std::string_view datagram, wire::Record& into) noexcept;
   Entry* find(const transport::Sender& sender) noexcept;
   Entry& place_for_new() noexcept;
 
   wire::LayoutChoice layout_;
-  tl::expected<wire::Decoded, wire::Fault> decoded_;  // of the datagram
-  bool given_ = true;                                 // next() gave it
+  std::optional<std::string_view> datagram_;  // none: next() gave what it has
+  transport::Sender sender_;                  // of the datagram
   std::array<Entry, capacity> entries_{};
   std::size_t count_ = 0;
   std::size_t recent_ = 0;  // most datagrams come from the sender of the one before

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "layout_detector.h"
+#include "payload.h"
 #include "words.h"
 
 namespace trk_bridge::wire {
@@ -28,29 +29,41 @@ tl::expected<std::string_view, Fault> up_to_nul(std::string_view text) noexcept 
   return text.substr(0, end);
 }
 
-template <class Record>
-tl::expected<Decoded, Fault> as_decoded(const tl::expected<Record, Fault>& record) noexcept {
-  if (!record) return tl::unexpected(record.error());
-  return Decoded{*record, {Encoding::ascii, {}}};
+template <class T>
+tl::expected<DecodedForm, Fault> decode_text(std::string_view text, Record& into) noexcept {
+  return read_text(text, record_in<T>(into)).map([] { return DecodedForm{}; });
 }
 
-template <class Record>
-tl::expected<std::string_view, Fault> encode_record(const Record& record, WireForm form, Buffer& buffer) noexcept {
-  Buffer payload;
+template <class T>
+tl::expected<std::string_view, Fault> encode_record(const T& record, WireForm form, Buffer& buffer) noexcept {
   const bool ascii = form.encoding == Encoding::ascii;
-  const auto written = ascii ? to_text(record, payload) : to_image(record, form.layout, payload);
-  if (!written) return written;
-  char* end = std::copy(magic.begin(), magic.end(), buffer.begin());
-  *end++ = type_of(record);
-  *end++ = ascii ? 'A' : 'B';
-  end = std::copy(written->begin(), written->end(), end);
-  if (ascii) *end++ = '\0';
-  return std::string_view(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
+  char* const payload = buffer.data() + header_size;
+  const auto size = ascii ? write_text(record, payload) : write_image(record, form.layout, payload);
+  if (!size) return tl::unexpected(size.error());
+  std::copy(magic.begin(), magic.end(), buffer.begin());
+  buffer[type_at] = type_of(record);
+  buffer[encoding_at] = ascii ? 'A' : 'B';
+  if (ascii) payload[*size] = '\0';
+  return std::string_view(buffer.data(), header_size + *size + (ascii ? 1 : 0));
+}
+
+/// Of what `read` reads, a copy.
+template <class T, class Read>
+tl::expected<T, Fault> record_of(Read&& read) noexcept {
+  tl::expected<T, Fault> record{tl::in_place};
+  if (const auto done = read(*record); !done) return tl::unexpected(done.error());
+  return record;
+}
+
+/// What was written into a buffer.
+tl::expected<std::string_view, Fault> view_of(const Buffer& buffer, tl::expected<std::size_t, Fault> size) noexcept {
+  if (!size) return tl::unexpected(size.error());
+  return std::string_view(buffer.data(), *size);
 }
 
 }  // namespace
 
-tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutDetector& detector) noexcept {
+tl::expected<DecodedForm, Fault> decode(std::string_view datagram, LayoutDetector& detector, Record& into) noexcept {
   if (datagram.size() > max_datagram) return refuse(Reason::too_long);
   const std::string_view begin = datagram.substr(0, magic.size());
   if (begin != magic.substr(0, begin.size())) return refuse(Reason::bad_magic);
@@ -63,14 +76,22 @@ tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutDetector& d
     case 'A': {
       const auto text = up_to_nul(payload);
       if (!text) return tl::unexpected(text.error());
-      return type == 'P' ? as_decoded(params_from_text(*text)) : as_decoded(constants_from_text(*text));
+      return type == 'P' ? decode_text<CameraParams>(*text, into) : decode_text<CameraConstants>(*text, into);
     }
     case 'B':
-      return type == 'P' ? LayoutDetectorAccess::params(payload, detector)
-                         : LayoutDetectorAccess::constants(payload, detector);
+      return type == 'P' ? LayoutDetectorAccess::params(payload, detector, into)
+                         : LayoutDetectorAccess::constants(payload, detector, into);
     default:
       return refuse(Reason::bad_encoding);
   }
+}
+
+tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutDetector& detector) noexcept {
+  tl::expected<Decoded, Fault> decoded{tl::in_place};
+  const auto form = decode(datagram, detector, decoded->record);
+  if (!form) return tl::unexpected(form.error());
+  static_cast<DecodedForm&>(*decoded) = *form;
+  return decoded;
 }
 
 tl::expected<std::string_view, Fault> encode(const CameraParams& params, WireForm form, Buffer& buffer) noexcept {
@@ -79,6 +100,32 @@ tl::expected<std::string_view, Fault> encode(const CameraParams& params, WireFor
 
 tl::expected<std::string_view, Fault> encode(const CameraConstants& constants, WireForm form, Buffer& buffer) noexcept {
   return encode_record(constants, form, buffer);
+}
+
+tl::expected<std::string_view, Fault> to_text(const CameraParams& p, Buffer& buffer) noexcept {
+  return view_of(buffer, write_text(p, buffer.data()));
+}
+tl::expected<std::string_view, Fault> to_text(const CameraConstants& c, Buffer& buffer) noexcept {
+  return view_of(buffer, write_text(c, buffer.data()));
+}
+tl::expected<std::string_view, Fault> to_image(const CameraParams& p, Layout layout, Buffer& buffer) noexcept {
+  return view_of(buffer, write_image(p, layout, buffer.data()));
+}
+tl::expected<std::string_view, Fault> to_image(const CameraConstants& c, Layout layout, Buffer& buffer) noexcept {
+  return view_of(buffer, write_image(c, layout, buffer.data()));
+}
+
+tl::expected<CameraParams, Fault> params_from_text(std::string_view text) noexcept {
+  return record_of<CameraParams>([&](CameraParams& into) { return read_text(text, into); });
+}
+tl::expected<CameraConstants, Fault> constants_from_text(std::string_view text) noexcept {
+  return record_of<CameraConstants>([&](CameraConstants& into) { return read_text(text, into); });
+}
+tl::expected<CameraParams, Fault> params_from_image(std::string_view image, Layout layout) noexcept {
+  return record_of<CameraParams>([&](CameraParams& into) { return read_image(image, layout, into); });
+}
+tl::expected<CameraConstants, Fault> constants_from_image(std::string_view image, Layout layout) noexcept {
+  return record_of<CameraConstants>([&](CameraConstants& into) { return read_image(image, layout, into); });
 }
 
 }  // namespace trk_bridge::wire

@@ -1,157 +1,179 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
+#include "payload.h"
 #include "places.h"
 #include "shape.h"
-#include "trk_bridge/wire/codec.h"
 #include "trk_bridge/wire/fields.h"
 
 namespace trk_bridge::wire {
 
 namespace {
 
-/// Reads numbers one behind another from an image whose size was checked.
-class Loader {
- public:
-  Loader(std::string_view image, ByteOrder order) noexcept : image_(image), order_(order) {}
+/// Calls visit(place, number) for every double that counts.
+template <class Visit>
+void for_each_number(const CameraParams& p, Visit&& visit) noexcept {
+  const auto from = [&visit](std::size_t place) {
+    return [&visit, place](const Field&, const double& value) mutable { visit(place++, value); };
+  };
+  if (has(p.format, euler)) {
+    for_each_euler_field(from(transform_place), p.euler);
+  } else {
+    for (std::size_t i = 0; i < p.matrix.size(); ++i) visit(matrix_place(i), p.matrix[i]);
+  }
+  for_each_lens_field(from(lens_place(p.format)), p);
+}
 
-  std::uint32_t word(std::size_t offset) const noexcept { return load<std::uint32_t>(image_.data() + offset, order_); }
-  std::uint64_t wide_word(std::size_t offset) const noexcept {
-    return load<std::uint64_t>(image_.data() + offset, order_);
-  }
-  double number(std::size_t offset) const noexcept { return load_double(image_.data() + offset, order_); }
-  /// A visitor of consecutive fields; offset and place are those of the first.
-  auto numbers_from(std::size_t offset, std::size_t place) noexcept {
-    return [this, offset, place](const Field&, double& value) mutable {
-      value = number(offset);
-      check(value, place++);
-      offset += sizeof(double);
-    };
-  }
-  auto words_from(std::size_t offset) const noexcept {
-    return [this, offset](const Field&, std::int32_t& value) mutable {
-      const std::uint32_t bits = word(offset);
-      std::memcpy(&value, &bits, sizeof bits);
-      offset += sizeof bits;
-    };
-  }
-  void check(double value, std::size_t place) noexcept {
-    if (!std::isfinite(value)) fault_.note(about_field(Reason::not_finite, place));
-  }
-  const FirstFault& fault() const noexcept { return fault_; }
+template <class Visit>
+void for_each_number(const CameraConstants& c, Visit&& visit) noexcept {
+  std::size_t place = chip_place;
+  for_each_chip_field([&visit, &place](const Field&, const double& value) { visit(place++, value); }, c);
+}
 
- private:
-  std::string_view image_;
-  ByteOrder order_;
-  FirstFault fault_;
-};
+template <class Record>
+FirstFault check_finite(const Record& record) noexcept {
+  // Bit 63, into which an exponent of ones carries when its lowest bit is added.
+  constexpr std::uint64_t exponent = 0x7FF0'0000'0000'0000, lowest = 0x0010'0000'0000'0000;
+  std::uint64_t carried = 0;
+  for_each_number(record, [&carried](std::size_t, double value) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    carried |= (bits & exponent) + lowest;
+  });
+  FirstFault fault;
+  if (carried >> 63U == 0) return fault;
+  for_each_number(record, [&fault](std::size_t place, double value) {
+    if (!std::isfinite(value)) fault.note(about_field(Reason::not_finite, place));
+  });
+  return fault;
+}
 
-/// Writes numbers one behind another into a zeroed image.
-class Storer {
- public:
-  Storer(Buffer& buffer, std::size_t size, ByteOrder order) noexcept : buffer_(buffer), size_(size), order_(order) {
-    std::memset(buffer.data(), 0, size);
-  }
+/// A visitor that reads consecutive fields; `at` is the first.
+template <ByteOrder order>
+auto load_from(const char* at) noexcept {
+  return [at](const Field&, auto& value) mutable {
+    value = load<std::decay_t<decltype(value)>>(at, order);
+    at += sizeof value;
+  };
+}
 
-  void word(std::size_t offset, std::uint32_t value) noexcept { store(value, buffer_.data() + offset, order_); }
-  void wide_word(std::size_t offset, std::uint64_t value) noexcept { store(value, buffer_.data() + offset, order_); }
-  void number(std::size_t offset, std::size_t place, double value) noexcept {
-    if (!std::isfinite(value)) refuse(Reason::not_finite, place);
-    store_double(value, buffer_.data() + offset, order_);
-  }
-  /// A visitor of consecutive fields; offset and place are those of the first.
-  auto numbers_from(std::size_t offset, std::size_t place) noexcept {
-    return [this, offset, place](const Field&, double value) mutable {
-      number(offset, place++, value);
-      offset += sizeof(double);
-    };
-  }
-  auto words_from(std::size_t offset) noexcept {
-    return [this, offset](const Field&, std::int32_t value) mutable {
-      word(offset, static_cast<std::uint32_t>(value));
-      offset += sizeof value;
-    };
-  }
-  void refuse(Reason reason, std::size_t place) noexcept { fault_.note(about_field(reason, place)); }
-  tl::expected<std::string_view, Fault> finish() const noexcept {
-    if (fault_) return tl::unexpected(*fault_);
-    return std::string_view(buffer_.data(), size_);
-  }
+/// A visitor that writes consecutive fields; `at` is the first.
+template <ByteOrder order>
+auto store_to(char* at) noexcept {
+  return [at](const Field&, auto value) mutable {
+    store(value, at, order);
+    at += sizeof value;
+  };
+}
 
- private:
-  Buffer& buffer_;
-  std::size_t size_;
-  ByteOrder order_;
-  FirstFault fault_;
-};
+template <ByteOrder order>
+void load_record(const char* image, Layout layout, CameraParams& p) noexcept {
+  const ParamsShape shape = params_shape(layout.generation, layout.abi);
+  p.id = layout.generation == Generation::identified ? load<std::uint32_t>(image + id_offset, order) : 0;
+  p.format = load<std::uint32_t>(image + shape.format, order);
+  clear_unselected(p);
+  if (has(p.format, euler)) {
+    for_each_euler_field(load_from<order>(image + shape.transform), p.euler);
+  } else {
+    auto load_next = load_from<order>(image + shape.transform);
+    for (double& value : p.matrix) load_next({}, value);
+  }
+  for_each_lens_field(load_from<order>(image + shape.lens), p);
+  p.counter = shape.counter_width == 8 ? load<std::uint64_t>(image + shape.counter, order)
+                                       : load<std::uint32_t>(image + shape.counter, order);
+}
+
+template <ByteOrder order>
+void load_record(const char* image, Layout layout, CameraConstants& c) noexcept {
+  const ConstantsShape shape = constants_shape(layout.generation, layout.abi);
+  c.id = layout.generation == Generation::identified ? load<std::uint32_t>(image + id_offset, order) : 0;
+  for_each_image_field(load_from<order>(image + shape.image), c);
+  for_each_chip_field(load_from<order>(image + shape.chip), c);
+}
+
+/// Into zeros.
+template <ByteOrder order>
+void store_record(const CameraParams& p, Layout layout, char* image) noexcept {
+  const ParamsShape shape = params_shape(layout.generation, layout.abi);
+  if (layout.generation == Generation::identified) store(p.id, image + id_offset, order);
+  store(p.format, image + shape.format, order);
+  if (has(p.format, euler)) {
+    for_each_euler_field(store_to<order>(image + shape.transform), p.euler);
+  } else {
+    auto store_next = store_to<order>(image + shape.transform);
+    for (const double value : p.matrix) store_next({}, value);
+  }
+  for_each_lens_field(store_to<order>(image + shape.lens), p);
+  if (shape.counter_width == 8) {
+    store(p.counter, image + shape.counter, order);
+  } else {
+    store(static_cast<std::uint32_t>(p.counter), image + shape.counter, order);
+  }
+}
+
+template <ByteOrder order>
+void store_record(const CameraConstants& c, Layout layout, char* image) noexcept {
+  const ConstantsShape shape = constants_shape(layout.generation, layout.abi);
+  if (layout.generation == Generation::identified) store(c.id, image + id_offset, order);
+  for_each_image_field(store_to<order>(image + shape.image), c);
+  for_each_chip_field(store_to<order>(image + shape.chip), c);
+}
+
+std::size_t size_of(const CameraParams&, Layout layout) noexcept { return params_size(layout); }
+std::size_t size_of(const CameraConstants&, Layout layout) noexcept { return constants_size(layout); }
+
+/// Whether the layout has room for what the record counts.
+FirstFault check_counter(const CameraParams& p, Layout layout) noexcept {
+  FirstFault fault;
+  const bool is_narrow = params_shape(layout.generation, layout.abi).counter_width == 4;
+  if (is_narrow && p.counter > std::numeric_limits<std::uint32_t>::max()) {
+    fault.note(about_field(Reason::out_of_range, counter_place(p.format)));
+  }
+  return fault;
+}
+FirstFault check_counter(const CameraConstants&, Layout) noexcept { return {}; }
+
+template <class Record>
+tl::expected<void, Fault> read(std::string_view image, Layout layout, Record& into) noexcept {
+  if (image.size() != size_of(into, layout)) return tl::unexpected(Fault{Reason::wrong_size});
+  if (layout.byte_order == ByteOrder::little) {
+    load_record<ByteOrder::little>(image.data(), layout, into);
+  } else {
+    load_record<ByteOrder::big>(image.data(), layout, into);
+  }
+  if (const auto fault = check_finite(into)) return tl::unexpected(*fault);
+  return {};
+}
+
+template <class Record>
+tl::expected<std::size_t, Fault> write(const Record& record, Layout layout, char* to) noexcept {
+  if (const auto fault = check_finite(record)) return tl::unexpected(*fault);
+  if (const auto fault = check_counter(record, layout)) return tl::unexpected(*fault);
+  const std::size_t size = size_of(record, layout);
+  std::memset(to, 0, size);
+  if (layout.byte_order == ByteOrder::little) {
+    store_record<ByteOrder::little>(record, layout, to);
+  } else {
+    store_record<ByteOrder::big>(record, layout, to);
+  }
+  return size;
+}
 
 }  // namespace
 
-tl::expected<CameraParams, Fault> params_from_image(std::string_view image, Layout layout) noexcept {
-  const ParamsShape shape = params_shape(layout.generation, layout.abi);
-  if (image.size() != shape.size) return tl::unexpected(Fault{Reason::wrong_size});
-  Loader loader(image, layout.byte_order);
-  CameraParams p;
-  if (layout.generation == Generation::identified) p.id = loader.word(id_offset);
-  p.format = loader.word(shape.format);
-  if (has(p.format, euler)) {
-    for_each_euler_field(loader.numbers_from(shape.transform, transform_place), p.euler);
-  } else {
-    for (std::size_t i = 0; i < p.matrix.size(); ++i) {
-      p.matrix[i] = loader.number(shape.transform + i * sizeof(double));
-      loader.check(p.matrix[i], matrix_place(i));
-    }
-  }
-  for_each_lens_field(loader.numbers_from(shape.lens, lens_place(p.format)), p);
-  p.counter = shape.counter_width == 8 ? loader.wide_word(shape.counter) : loader.word(shape.counter);
-  if (loader.fault()) return tl::unexpected(*loader.fault());
-  return p;
+tl::expected<void, Fault> read_image(std::string_view image, Layout layout, CameraParams& into) noexcept {
+  return read(image, layout, into);
 }
-
-tl::expected<CameraConstants, Fault> constants_from_image(std::string_view image, Layout layout) noexcept {
-  const ConstantsShape shape = constants_shape(layout.generation, layout.abi);
-  if (image.size() != shape.size) return tl::unexpected(Fault{Reason::wrong_size});
-  Loader loader(image, layout.byte_order);
-  CameraConstants c;
-  if (layout.generation == Generation::identified) c.id = loader.word(id_offset);
-  for_each_image_field(loader.words_from(shape.image), c);
-  for_each_chip_field(loader.numbers_from(shape.chip, chip_place), c);
-  if (loader.fault()) return tl::unexpected(*loader.fault());
-  return c;
+tl::expected<void, Fault> read_image(std::string_view image, Layout layout, CameraConstants& into) noexcept {
+  return read(image, layout, into);
 }
-
-tl::expected<std::string_view, Fault> to_image(const CameraParams& p, Layout layout, Buffer& buffer) noexcept {
-  const ParamsShape shape = params_shape(layout.generation, layout.abi);
-  Storer storer(buffer, shape.size, layout.byte_order);
-  if (layout.generation == Generation::identified) storer.word(id_offset, p.id);
-  storer.word(shape.format, p.format);
-  if (has(p.format, euler)) {
-    for_each_euler_field(storer.numbers_from(shape.transform, transform_place), p.euler);
-  } else {
-    for (std::size_t i = 0; i < p.matrix.size(); ++i) {
-      storer.number(shape.transform + i * sizeof(double), matrix_place(i), p.matrix[i]);
-    }
-  }
-  for_each_lens_field(storer.numbers_from(shape.lens, lens_place(p.format)), p);
-  if (shape.counter_width == 8) {
-    storer.wide_word(shape.counter, p.counter);
-  } else {
-    if (p.counter > std::numeric_limits<std::uint32_t>::max()) {
-      storer.refuse(Reason::out_of_range, counter_place(p.format));
-    }
-    storer.word(shape.counter, static_cast<std::uint32_t>(p.counter));
-  }
-  return storer.finish();
+tl::expected<std::size_t, Fault> write_image(const CameraParams& p, Layout layout, char* to) noexcept {
+  return write(p, layout, to);
 }
-
-tl::expected<std::string_view, Fault> to_image(const CameraConstants& c, Layout layout, Buffer& buffer) noexcept {
-  const ConstantsShape shape = constants_shape(layout.generation, layout.abi);
-  Storer storer(buffer, shape.size, layout.byte_order);
-  if (layout.generation == Generation::identified) storer.word(id_offset, c.id);
-  for_each_image_field(storer.words_from(shape.image), c);
-  for_each_chip_field(storer.numbers_from(shape.chip, chip_place), c);
-  return storer.finish();
+tl::expected<std::size_t, Fault> write_image(const CameraConstants& c, Layout layout, char* to) noexcept {
+  return write(c, layout, to);
 }
 
 }  // namespace trk_bridge::wire

@@ -3,9 +3,11 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 
 #include "layout_words.h"
+#include "payload.h"
 #include "rigid.h"
 #include "shape.h"
 #include "trk_bridge/wire/fields.h"
@@ -53,30 +55,27 @@ Candidates candidates_for(std::size_t size, const LayoutChoice& given, Size size
 /// A number that a camera could have, or one that is not finite, a fault of its own. Bytes that never were a double
 /// seldom look like one.
 bool is_plausible(double value) noexcept {
+  // Without branches, for many of them are asked one after another.
   const double magnitude = std::abs(value);
-  return !std::isfinite(value) || value == 0 || (magnitude > 1e-50 && magnitude < 1e12);
+  const bool is_likely = (magnitude > 1e-50) & (magnitude < 1e12);
+  return is_likely | (value == 0) | !(magnitude <= std::numeric_limits<double>::max());
 }
 
 /// Whether the doubles are ones that a record of this format has. `is_matrix` says what is one.
 bool transform_fits(std::string_view image, Layout layout, std::uint32_t format,
                     bool (*is_matrix)(const std::array<double, 16>&) noexcept) noexcept {
   const ParamsShape shape = params_shape(layout.generation, layout.abi);
-  std::array<double, 16> matrix;
-  for (std::size_t i = 0; i < matrix.size(); ++i) {
-    matrix[i] = load_double(image.data() + shape.transform + i * sizeof(double), layout.byte_order);
-  }
+  const auto matrix = load_doubles<16>(image.data() + shape.transform, layout.byte_order);
   if (!has(format, euler)) return is_matrix(matrix);
   if (is_rigid(matrix)) return false;
   constexpr std::size_t euler_numbers = 6;
-  for (std::size_t i = 0; i < euler_numbers; ++i) {
-    if (!is_plausible(matrix[i])) return false;
-  }
   // Focus and aperture stay out: senders write infinity in many ways.
   constexpr std::size_t lens_numbers_before_focus = 5;
-  for (std::size_t i = 0; i < lens_numbers_before_focus; ++i) {
-    if (!is_plausible(load_double(image.data() + shape.lens + i * sizeof(double), layout.byte_order))) return false;
-  }
-  return true;
+  const auto lens = load_doubles<lens_numbers_before_focus>(image.data() + shape.lens, layout.byte_order);
+  bool plausible = true;
+  for (std::size_t i = 0; i < euler_numbers; ++i) plausible &= is_plausible(matrix[i]);
+  for (const double number : lens) plausible &= is_plausible(number);
+  return plausible;
 }
 
 /// How well the id and the format look: known bits 2, bits that could be known one day 1, anything else 0.
@@ -137,13 +136,20 @@ struct Choice {
 Choice choose(std::string_view image, const Candidates& candidates, std::optional<Generation> known,
               std::optional<Layout> seen) noexcept {
   std::array<Reading, generations.size() * byte_orders.size()> readings;
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < candidates.count; ++i) {
-    readings[i] = rate(image, candidates.layouts[i], known, seen);
-    if (readings[i].weight > readings[best].weight) best = i;
+  std::size_t count = 0, best = 0;
+  // The wrong words neither outweigh good ones that fit nor make them ambiguous.
+  for (const bool with_good_words : {true, false}) {
+    for (const Layout layout : candidates) {
+      const Words words = words_of(image, layout);
+      if ((words_grade(words.id, words.format) > 0) != with_good_words) continue;
+      readings[count] = rate(image, layout, known, seen);
+      if (readings[count].weight > readings[best].weight) best = count;
+      ++count;
+    }
+    if (count != 0 && readings[best].fits) break;
   }
   Choice choice{readings[best]};
-  for (std::size_t i = 0; i < candidates.count; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const bool other = readings[i].layout.generation != choice.best.layout.generation;
     if (other && readings[i].fits && readings[i].words > 0) choice.ambiguous = true;
   }
@@ -196,28 +202,40 @@ std::uint64_t LayoutDetectorAccess::counter(std::string_view image, Layout& layo
   return layout.abi == Abi::lp64 ? wide : load<std::uint32_t>(at, layout.byte_order);
 }
 
-tl::expected<Decoded, Fault> LayoutDetectorAccess::params(std::string_view image, LayoutDetector& detector) noexcept {
+tl::expected<DecodedForm, Fault> LayoutDetectorAccess::params(std::string_view image, LayoutDetector& detector,
+                                                              Record& into) noexcept {
   const LayoutChoice& given = detector.given_;
-  const Candidates candidates = candidates_for(image.size(), given, params_size);
-  if (candidates.count == 0) return tl::unexpected(candidates.fault_if_none());
-
   const auto known =
       detector.generation_of_constants_ ? detector.generation_of_constants_ : detector.only_possible_generation_;
-  const auto [best, ambiguous] = choose(image, candidates, known, detector.seen_);
+
+  Choice choice;
+  if (detector.seen_) {
+    Layout as_before = *detector.seen_;
+    // Which of the two it is the counter shows.
+    if (!given.abi && as_before.abi == Abi::llp64) as_before.abi = Abi::lp64;
+    if (params_size(as_before) == image.size()) choice.best = rate(image, as_before, known, detector.seen_);
+  }
+  // What fits, has the known generation and the best of words and comes as before outweighs every other reading.
+  if (!choice.best.known || choice.best.words != 2) {
+    const Candidates candidates = candidates_for(image.size(), given, params_size);
+    if (candidates.count == 0) return tl::unexpected(candidates.fault_if_none());
+    choice = choose(image, candidates, known, detector.seen_);
+  }
+  const auto& [best, ambiguous] = choice;
   if (!best.fits && !given.generation) return tl::unexpected(Fault{Reason::no_valid_layout});
   Layout layout = best.layout;
-  auto params = params_from_image(image, layout);
-  if (!params) return tl::unexpected(params.error());
-  if (!given.abi && layout.abi == Abi::lp64) params->counter = counter(image, layout, detector);
+  CameraParams& params = record_in<CameraParams>(into);
+  if (const auto read = read_image(image, layout, params); !read) return tl::unexpected(read.error());
+  if (!given.abi && layout.abi == Abi::lp64) params.counter = counter(image, layout, detector);
 
   if (best.words == 2 && !ambiguous) detector.only_possible_generation_ = layout.generation;
   detector.seen_ = layout;
-  const bool same_either_way = params->id == 0 && params->format == 0;
-  return Decoded{*params, {Encoding::binary, layout}, ambiguous && !best.known && !same_either_way};
+  const bool same_either_way = params.id == 0 && params.format == 0;
+  return DecodedForm{{Encoding::binary, layout}, ambiguous && !best.known && !same_either_way};
 }
 
-tl::expected<Decoded, Fault> LayoutDetectorAccess::constants(std::string_view image,
-                                                             LayoutDetector& detector) noexcept {
+tl::expected<DecodedForm, Fault> LayoutDetectorAccess::constants(std::string_view image, LayoutDetector& detector,
+                                                                 Record& into) noexcept {
   const LayoutChoice& given = detector.given_;
   const Candidates candidates = candidates_for(image.size(), given, constants_size);
   if (candidates.count == 0) return tl::unexpected(candidates.fault_if_none());
@@ -233,8 +251,8 @@ tl::expected<Decoded, Fault> LayoutDetectorAccess::constants(std::string_view im
       valid = this_valid;
     }
   }
-  const auto constants = constants_from_image(image, *chosen);
-  if (!constants) return tl::unexpected(constants.error());
+  const auto read = read_image(image, *chosen, record_in<CameraConstants>(into));
+  if (!read) return tl::unexpected(read.error());
   if (!valid && !given.generation) return tl::unexpected(Fault{Reason::no_valid_layout});
 
   Layout layout = *chosen;
@@ -243,7 +261,7 @@ tl::expected<Decoded, Fault> LayoutDetectorAccess::constants(std::string_view im
   }
   detector.generation_of_constants_ = layout.generation;
   detector.seen_ = layout;
-  return Decoded{*constants, {Encoding::binary, layout}};
+  return DecodedForm{{Encoding::binary, layout}};
 }
 
 }  // namespace trk_bridge::wire

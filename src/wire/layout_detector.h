@@ -9,11 +9,12 @@
 
 namespace trk_bridge::wire {
 
-/// Reads one image and, when it is good, remembers in the `LayoutDetector` what it shows of the sender.
+/// Reads one image into `into` and, when it is good, remembers in the `LayoutDetector` what it shows of the sender.
 struct LayoutDetectorAccess {
-  [[nodiscard]] static tl::expected<Decoded, Fault> params(std::string_view image, LayoutDetector& detector) noexcept;
-  [[nodiscard]] static tl::expected<Decoded, Fault> constants(std::string_view image,
-                                                              LayoutDetector& detector) noexcept;
+  [[nodiscard]] static tl::expected<DecodedForm, Fault> params(std::string_view image, LayoutDetector& detector,
+                                                               Record& into) noexcept;
+  [[nodiscard]] static tl::expected<DecodedForm, Fault> constants(std::string_view image, LayoutDetector& detector,
+                                                                  Record& into) noexcept;
 
  private:
   /// The counter of a 200-byte image, and its abi into `layout`.

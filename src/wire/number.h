@@ -1,4 +1,5 @@
-// Words of ASCII records <-> numbers, by std::from_chars and std::to_chars: exact, and the same in every locale.
+// Words of ASCII records to numbers, by std::from_chars: exact, and the same in every locale. Whatever word it is;
+// plain_number.h is quicker where it is one of the usual.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,11 @@
 // Sizes and offsets of the binary records (doc/wire_formats.md, "Binary"), and their numbers in either byte order.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "trk_bridge/wire/layout.h"
 
@@ -61,35 +63,40 @@ static_assert(constants_shape(Generation::identified, Abi::llp64).chip == 32);
 static_assert(constants_shape(Generation::identified, Abi::i386).size == 60);
 static_assert(constants_shape(Generation::identified, Abi::i386).chip == 28);
 
-template <class Unsigned>
-Unsigned load(const char* from, ByteOrder order) noexcept {
-  Unsigned value = 0;
-  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
-    const std::size_t at = order == ByteOrder::big ? i : sizeof(Unsigned) - 1 - i;
-    value = static_cast<Unsigned>(value << 8 | static_cast<unsigned char>(from[at]));
-  }
-  return value;
-}
+constexpr ByteOrder native_order = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? ByteOrder::big : ByteOrder::little;
 
-template <class Unsigned>
-void store(Unsigned value, char* to, ByteOrder order) noexcept {
-  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
-    const std::size_t at = order == ByteOrder::little ? i : sizeof(Unsigned) - 1 - i;
-    to[at] = static_cast<char>(static_cast<unsigned char>(value >> 8 * i));
-  }
-}
+constexpr std::uint32_t swap_bytes(std::uint32_t value) noexcept { return __builtin_bswap32(value); }
+constexpr std::uint64_t swap_bytes(std::uint64_t value) noexcept { return __builtin_bswap64(value); }
 
-inline double load_double(const char* from, ByteOrder order) noexcept {
-  const auto bits = load<std::uint64_t>(from, order);
-  double value;
+/// A number of 4 or 8 bytes.
+template <class Number>
+Number load(const char* from, ByteOrder order) noexcept {
+  std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t> bits;
+  static_assert(sizeof bits == sizeof(Number));
+  std::memcpy(&bits, from, sizeof bits);
+  if (order != native_order) bits = swap_bytes(bits);
+  Number value;
   std::memcpy(&value, &bits, sizeof value);
   return value;
 }
 
-inline void store_double(double value, char* to, ByteOrder order) noexcept {
-  std::uint64_t bits;
+/// `n` doubles, one behind another.
+template <std::size_t n>
+std::array<double, n> load_doubles(const char* from, ByteOrder order) noexcept {
+  std::array<double, n> values;
+  std::memcpy(values.data(), from, sizeof values);
+  if (order == native_order) return values;
+  for (std::size_t i = 0; i < n; ++i) values[i] = load<double>(from + i * sizeof(double), order);
+  return values;
+}
+
+template <class Number>
+void store(Number value, char* to, ByteOrder order) noexcept {
+  std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t> bits;
+  static_assert(sizeof bits == sizeof(Number));
   std::memcpy(&bits, &value, sizeof bits);
-  store(bits, to, order);
+  if (order != native_order) bits = swap_bytes(bits);
+  std::memcpy(to, &bits, sizeof bits);
 }
 
 }  // namespace trk_bridge::wire

@@ -3,8 +3,9 @@
 #include <type_traits>
 
 #include "number.h"
+#include "payload.h"
 #include "places.h"
-#include "trk_bridge/wire/codec.h"
+#include "plain_number.h"
 #include "trk_bridge/wire/fields.h"
 #include "words.h"
 
@@ -15,24 +16,35 @@ namespace {
 /// Takes the fields of a record off a text, one after another, until one is wrong.
 class Reader {
  public:
-  explicit Reader(std::string_view text) noexcept : text_(text) {}
+  explicit Reader(std::string_view text) noexcept : at_(text.data()), end_(text.data() + text.size()), last_(end_) {
+    while (last_ != at_ && !is_space(last_[-1])) --last_;
+  }
 
   /// The optional first word.
   void id(std::uint32_t& value) noexcept {
-    std::string_view rest = text_;
-    const std::string_view word = take_word(rest);
-    if (word.empty() || word.front() != 'I') return;
-    text_ = rest;
-    note(read_digits(word.substr(1), value), id_place);
+    skip_space();
+    if (at_ != end_ && *at_ == 'I')
+      field(id_place, [&](std::string_view w) { return read_digits(w.substr(1), value); });
   }
 
   void format(std::uint32_t& value) noexcept {
-    const auto read = [&value](std::string_view word) { return read_hexadecimal(word, value); };
-    field(format_place, read);
+    field(format_place, [&value](std::string_view word) { return read_hexadecimal(word, value); });
   }
 
   template <class T>
   void number(std::size_t place, T& value) noexcept {
+    if (fault_) return;
+    skip_space();
+    const char* behind = nullptr;
+    if constexpr (std::is_floating_point_v<T>) {
+      if (at_ < last_) behind = read_plain_number(at_, end_, value);
+    } else if constexpr (std::is_unsigned_v<T>) {
+      behind = read_plain_number(at_, end_, value);
+    }
+    if (behind != nullptr) {
+      at_ = behind;
+      return;
+    }
     field(place, [&value](std::string_view word) { return read_number(word, value); });
   }
 
@@ -42,50 +54,51 @@ class Reader {
   }
 
   /// The first fault, counting what stands behind the last field.
-  FirstFault finish() noexcept {
-    if (!take_word(text_).empty()) fault_.note({Reason::trailing_text});
-    return fault_;
+  tl::expected<void, Fault> finish() noexcept {
+    skip_space();
+    if (at_ != end_) fault_.note({Reason::trailing_text});
+    if (fault_) return tl::unexpected(*fault_);
+    return {};
   }
 
  private:
+  void skip_space() noexcept {
+    while (at_ != end_ && is_space(*at_)) ++at_;
+  }
+
   template <class Read>
   void field(std::size_t place, Read read) noexcept {
     if (fault_) return;
-    const std::string_view word = take_word(text_);
-    note(word.empty() ? NumberFault(Reason::truncated) : read(word), place);
-  }
-
-  void note(NumberFault reason, std::size_t place) noexcept {
+    std::string_view rest(at_, static_cast<std::size_t>(end_ - at_));
+    const std::string_view word = take_word(rest);
+    at_ = end_ - rest.size();
+    const NumberFault reason = word.empty() ? Reason::truncated : read(word);
     if (reason) fault_.note(about_field(*reason, place));
   }
 
-  std::string_view text_;
+  const char* at_;
+  const char* const end_;
+  const char* last_;  // the word that no white space ends
   FirstFault fault_;
 };
-
-// The longest number is a double such as -2.2250738585072014e-308, the widest record a matrix with its id.
-constexpr std::size_t longest_number = 24;
-static_assert(header_size + 22 * (longest_number + 1) + 1 <= max_datagram, "every record fits its datagram");
 
 /// Puts the fields of a record one after another, one space between, until one cannot be written.
 class Writer {
  public:
-  explicit Writer(Buffer& buffer) noexcept : buffer_(buffer) {}
+  explicit Writer(char* to) noexcept : begin_(to), at_(to) {}
 
   void id(std::uint32_t value) noexcept {
     if (value == 0) return;
-    buffer_[end_++] = 'I';
-    end_ = static_cast<std::size_t>(std::to_chars(here(), limit(), value).ptr - buffer_.data());
+    *at_++ = 'I';
+    at_ = std::to_chars(at_, limit(), value).ptr;
   }
 
   void format(std::uint32_t value) noexcept {
     separate();
-    char* const begin = here();
-    char* const end = std::to_chars(begin, limit(), value, 16).ptr;
-    for (char* c = begin; c != end; ++c) {
-      if (*c >= 'a') *c = static_cast<char>(*c - 'a' + 'A');
+    char* const end = std::to_chars(at_, limit(), value, 16).ptr;
+    for (; at_ != end; ++at_) {
+      if (*at_ >= 'a') *at_ = static_cast<char>(*at_ - 'a' + 'A');
     }
-    end_ = static_cast<std::size_t>(end - buffer_.data());
   }
 
   template <class T>
@@ -94,7 +107,7 @@ class Writer {
       if (!std::isfinite(value)) fault_.note(about_field(Reason::not_finite, place));
     }
     separate();
-    end_ = static_cast<std::size_t>(std::to_chars(here(), limit(), value).ptr - buffer_.data());
+    at_ = std::to_chars(at_, limit(), value).ptr;
   }
 
   /// A visitor of consecutive fields, the first of which has this place.
@@ -102,20 +115,19 @@ class Writer {
     return [this, place](const Field&, auto value) mutable { number(place++, value); };
   }
 
-  tl::expected<std::string_view, Fault> finish() const noexcept {
+  tl::expected<std::size_t, Fault> finish() const noexcept {
     if (fault_) return tl::unexpected(*fault_);
-    return std::string_view(buffer_.data(), end_);
+    return static_cast<std::size_t>(at_ - begin_);
   }
 
  private:
-  char* here() noexcept { return buffer_.data() + end_; }
-  char* limit() noexcept { return buffer_.data() + buffer_.size(); }
+  char* limit() const noexcept { return begin_ + payload_room; }
   void separate() noexcept {
-    if (end_ != 0) buffer_[end_++] = ' ';
+    if (at_ != begin_) *at_++ = ' ';
   }
 
-  Buffer& buffer_;
-  std::size_t end_ = 0;
+  char* const begin_;
+  char* at_;
   FirstFault fault_;
 };
 
@@ -131,34 +143,33 @@ void read_matrix(Reader& reader, std::array<double, 16>& matrix) noexcept {
 
 }  // namespace
 
-tl::expected<CameraParams, Fault> params_from_text(std::string_view text) noexcept {
-  CameraParams p;
+tl::expected<void, Fault> read_text(std::string_view text, CameraParams& into) noexcept {
   Reader reader(text);
-  reader.id(p.id);
-  reader.format(p.format);
-  if (has(p.format, euler)) {
-    for_each_euler_field(reader.numbers_from(transform_place), p.euler);
+  into.id = 0;
+  reader.id(into.id);
+  reader.format(into.format);
+  clear_unselected(into);
+  if (has(into.format, euler)) {
+    for_each_euler_field(reader.numbers_from(transform_place), into.euler);
   } else {
-    read_matrix(reader, p.matrix);
+    read_matrix(reader, into.matrix);
   }
-  for_each_lens_field(reader.numbers_from(lens_place(p.format)), p);
-  reader.number(counter_place(p.format), p.counter);
-  if (const auto fault = reader.finish()) return tl::unexpected(*fault);
-  return p;
+  for_each_lens_field(reader.numbers_from(lens_place(into.format)), into);
+  reader.number(counter_place(into.format), into.counter);
+  return reader.finish();
 }
 
-tl::expected<CameraConstants, Fault> constants_from_text(std::string_view text) noexcept {
-  CameraConstants c;
+tl::expected<void, Fault> read_text(std::string_view text, CameraConstants& into) noexcept {
   Reader reader(text);
-  reader.id(c.id);
-  for_each_image_field(reader.numbers_from(image_place), c);
-  for_each_chip_field(reader.numbers_from(chip_place), c);
-  if (const auto fault = reader.finish()) return tl::unexpected(*fault);
-  return c;
+  into.id = 0;
+  reader.id(into.id);
+  for_each_image_field(reader.numbers_from(image_place), into);
+  for_each_chip_field(reader.numbers_from(chip_place), into);
+  return reader.finish();
 }
 
-tl::expected<std::string_view, Fault> to_text(const CameraParams& p, Buffer& buffer) noexcept {
-  Writer writer(buffer);
+tl::expected<std::size_t, Fault> write_text(const CameraParams& p, char* to) noexcept {
+  Writer writer(to);
   writer.id(p.id);
   writer.format(p.format);
   if (has(p.format, euler)) {
@@ -173,8 +184,8 @@ tl::expected<std::string_view, Fault> to_text(const CameraParams& p, Buffer& buf
   return writer.finish();
 }
 
-tl::expected<std::string_view, Fault> to_text(const CameraConstants& c, Buffer& buffer) noexcept {
-  Writer writer(buffer);
+tl::expected<std::size_t, Fault> write_text(const CameraConstants& c, char* to) noexcept {
+  Writer writer(to);
   writer.id(c.id);
   for_each_image_field(writer.numbers_from(image_place), c);
   for_each_chip_field(writer.numbers_from(chip_place), c);

@@ -32,17 +32,24 @@ struct WireForm {
   Layout layout{};
 };
 
-/// A valid datagram.
-struct Decoded {
-  Record record;
+/// How a valid datagram was encoded.
+struct DecodedForm {
   WireForm form;
   /// The generation of a binary record is a guess: both generations fit, and nothing is known of the sender
   /// (`LayoutDetector`).
   bool layout_guessed = false;
 };
 
+/// A valid datagram.
+struct Decoded : DecodedForm {
+  Record record;
+};
+
 /// One whole datagram. `detector` is the one of its sender; it learns from good binary records.
 [[nodiscard]] tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutDetector& detector) noexcept;
+/// The same into a record that is there already, which is the quickest; it is any record after a fault.
+[[nodiscard]] tl::expected<DecodedForm, Fault> decode(std::string_view datagram, LayoutDetector& detector,
+                                                      Record& into) noexcept;
 
 /// One whole datagram into `buffer`; the view covers its bytes. ASCII ends in its NUL. A number that is not finite is
 /// refused (not_finite), as is a counter that the layout cannot hold (out_of_range). The id is dropped in the

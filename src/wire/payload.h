@@ -1,0 +1,47 @@
+// Records <-> what follows the header of their datagrams: the functions of codec.h without a copy in between.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+#include "trk_bridge/wire/codec.h"
+#include "trk_bridge/wire/format.h"
+
+namespace trk_bridge::wire {
+
+/// Room that any payload leaves free behind a header.
+inline constexpr std::size_t payload_room = max_datagram - header_size;
+
+/// Reads all fields of `into`, which are anything after a fault.
+[[nodiscard]] tl::expected<void, Fault> read_text(std::string_view text, CameraParams& into) noexcept;
+[[nodiscard]] tl::expected<void, Fault> read_text(std::string_view text, CameraConstants& into) noexcept;
+[[nodiscard]] tl::expected<void, Fault> read_image(std::string_view image, Layout, CameraParams& into) noexcept;
+[[nodiscard]] tl::expected<void, Fault> read_image(std::string_view image, Layout, CameraConstants& into) noexcept;
+
+/// Write up to `payload_room` bytes and return how many.
+[[nodiscard]] tl::expected<std::size_t, Fault> write_text(const CameraParams&, char* to) noexcept;
+[[nodiscard]] tl::expected<std::size_t, Fault> write_text(const CameraConstants&, char* to) noexcept;
+[[nodiscard]] tl::expected<std::size_t, Fault> write_image(const CameraParams&, Layout, char* to) noexcept;
+[[nodiscard]] tl::expected<std::size_t, Fault> write_image(const CameraConstants&, Layout, char* to) noexcept;
+
+/// Makes what the format does not select of the transform zero.
+inline void clear_unselected(CameraParams& p) noexcept {
+  if (!has(p.format, euler)) {
+    p.euler = {};
+    return;
+  }
+  // Unrolled, the compiler does not make it a string instruction, which takes longer than a whole record.
+#pragma GCC unroll 16
+  for (double& value : p.matrix) value = 0;
+}
+
+/// The record in `into`, made one of this type where it is none.
+template <class T>
+T& record_in(Record& into) noexcept {
+  if (T* const there = std::get_if<T>(&into)) return *there;
+  return into.emplace<T>();
+}
+
+}  // namespace trk_bridge::wire
