@@ -10,36 +10,35 @@ namespace trk_bridge::trk {
 void DatagramDecoder::begin(std::string_view datagram, const transport::Sender& sender) noexcept {
   datagram_ = datagram;
   sender_ = sender;
+  is_given_ = false;
 }
 
 transport::Decoder::Next DatagramDecoder::next(transport::Sample& into, transport::Fault& fault) noexcept {
-  if (!datagram_) return Next::none;
-  const auto form = decode(*std::exchange(datagram_, std::nullopt), into.record);
-  if (!form) {
-    fault = form.error();
+  if (std::exchange(is_given_, true)) return Next::none;
+  wire::DecodedForm form;
+  wire::Fault why{};
+  if (!decode(into.record, form, why)) {
+    fault = why;
     return Next::fault;
   }
-  into.origin = transport::origin_of(form->form, form->layout_guessed);
+  into.origin = transport::origin_of(form.form, form.layout_guessed);
   into.has_counter = into.has_lens = true;
   into.sample_time.reset();
   into.time_code.reset();
   return Next::sample;
 }
 
-tl::expected<wire::DecodedForm, wire::Fault> DatagramDecoder::decode(std::string_view datagram,
-                                                                     wire::Record& into) noexcept {
+bool DatagramDecoder::decode(wire::Record& into, wire::DecodedForm& form, wire::Fault& fault) noexcept {
   if (Entry* known = find(sender_)) {
     known->last_used = ++uses_;
-    return wire::decode(datagram, known->detector, into);
+    return wire::decode(datagram_, known->detector, into, form, fault);
   }
   wire::LayoutDetector detector(layout_);
-  const auto form = wire::decode(datagram, detector, into);
-  if (form) {
-    Entry& entry = place_for_new();
-    entry = {sender_, detector, ++uses_};
-    recent_ = static_cast<std::size_t>(&entry - entries_.data());
-  }
-  return form;
+  if (!wire::decode(datagram_, detector, into, form, fault)) return false;
+  Entry& entry = place_for_new();
+  entry = {sender_, detector, ++uses_};
+  recent_ = static_cast<std::size_t>(&entry - entries_.data());
+  return true;
 }
 
 DatagramDecoder::Entry* DatagramDecoder::find(const transport::Sender& sender) noexcept {

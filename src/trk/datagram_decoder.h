@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "transport/datagram.h"
@@ -31,13 +30,14 @@ class DatagramDecoder final : public transport::Decoder {
     std::uint64_t last_used = 0;
   };
 
-  tl::expected<wire::DecodedForm, wire::Fault> decode(std::string_view datagram, wire::Record& into) noexcept;
+  bool decode(wire::Record& into, wire::DecodedForm& form, wire::Fault& fault) noexcept;
   Entry* find(const transport::Sender& sender) noexcept;
   Entry& place_for_new() noexcept;
 
   wire::LayoutChoice layout_;
-  std::optional<std::string_view> datagram_;  // none: next() gave what it has
-  transport::Sender sender_;                  // of the datagram
+  std::string_view datagram_;
+  transport::Sender sender_;  // of the datagram
+  bool is_given_ = true;      // next() gave what it has
   std::array<Entry, capacity> entries_{};
   std::size_t count_ = 0;
   std::size_t recent_ = 0;  // most datagrams come from the sender of the one before

@@ -18,20 +18,9 @@ static_assert(encoding_at + 1 == header_size);
 constexpr char type_of(const CameraParams&) noexcept { return 'P'; }
 constexpr char type_of(const CameraConstants&) noexcept { return 'C'; }
 
-tl::unexpected<Fault> refuse(Reason reason) noexcept { return tl::unexpected(Fault{reason}); }
-
-/// `text` up to its NUL; behind that only white space and more of them are allowed.
-tl::expected<std::string_view, Fault> up_to_nul(std::string_view text) noexcept {
-  const std::size_t end = std::min(text.find('\0'), text.size());
-  const std::string_view rest = text.substr(end);
-  const bool blank = std::all_of(rest.begin(), rest.end(), [](char c) { return c == '\0' || is_space(c); });
-  if (!blank) return refuse(Reason::trailing_text);
-  return text.substr(0, end);
-}
-
-template <class T>
-tl::expected<DecodedForm, Fault> decode_text(std::string_view text, Record& into) noexcept {
-  return read_text(text, record_in<T>(into)).map([] { return DecodedForm{}; });
+/// Whether there is nothing but white space and NULs.
+bool is_blank(std::string_view text) noexcept {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c == '\0' || is_space(c); });
 }
 
 template <class T>
@@ -50,8 +39,9 @@ tl::expected<std::string_view, Fault> encode_record(const T& record, WireForm fo
 /// Of what `read` reads, a copy.
 template <class T, class Read>
 tl::expected<T, Fault> record_of(Read&& read) noexcept {
-  tl::expected<T, Fault> record{tl::in_place};
-  if (const auto done = read(*record); !done) return tl::unexpected(done.error());
+  tl::expected<T, Fault> record;
+  Fault fault{};
+  if (!read(*record, fault)) return tl::unexpected(fault);
   return record;
 }
 
@@ -63,7 +53,12 @@ tl::expected<std::string_view, Fault> view_of(const Buffer& buffer, tl::expected
 
 }  // namespace
 
-tl::expected<DecodedForm, Fault> decode(std::string_view datagram, LayoutDetector& detector, Record& into) noexcept {
+bool decode(std::string_view datagram, LayoutDetector& detector, Record& into, DecodedForm& form,
+            Fault& fault) noexcept {
+  const auto refuse = [&fault](Reason reason) {
+    fault = {reason};
+    return false;
+  };
   if (datagram.size() > max_datagram) return refuse(Reason::too_long);
   const std::string_view begin = datagram.substr(0, magic.size());
   if (begin != magic.substr(0, begin.size())) return refuse(Reason::bad_magic);
@@ -74,23 +69,25 @@ tl::expected<DecodedForm, Fault> decode(std::string_view datagram, LayoutDetecto
   const std::string_view payload = datagram.substr(header_size);
   switch (datagram[encoding_at]) {
     case 'A': {
-      const auto text = up_to_nul(payload);
-      if (!text) return tl::unexpected(text.error());
-      return type == 'P' ? decode_text<CameraParams>(*text, into) : decode_text<CameraConstants>(*text, into);
+      const std::size_t end = std::min(payload.find('\0'), payload.size());
+      if (!is_blank(payload.substr(end))) return refuse(Reason::trailing_text);
+      const std::string_view text = payload.substr(0, end);
+      form = {};
+      return type == 'P' ? read_text(text, record_in<CameraParams>(into), fault)
+                         : read_text(text, record_in<CameraConstants>(into), fault);
     }
     case 'B':
-      return type == 'P' ? LayoutDetectorAccess::params(payload, detector, into)
-                         : LayoutDetectorAccess::constants(payload, detector, into);
+      return type == 'P' ? LayoutDetectorAccess::params(payload, detector, into, form, fault)
+                         : LayoutDetectorAccess::constants(payload, detector, into, form, fault);
     default:
       return refuse(Reason::bad_encoding);
   }
 }
 
 tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutDetector& detector) noexcept {
-  tl::expected<Decoded, Fault> decoded{tl::in_place};
-  const auto form = decode(datagram, detector, decoded->record);
-  if (!form) return tl::unexpected(form.error());
-  static_cast<DecodedForm&>(*decoded) = *form;
+  tl::expected<Decoded, Fault> decoded;
+  Fault fault{};
+  if (!decode(datagram, detector, decoded->record, *decoded, fault)) return tl::unexpected(fault);
   return decoded;
 }
 
@@ -116,16 +113,18 @@ tl::expected<std::string_view, Fault> to_image(const CameraConstants& c, Layout 
 }
 
 tl::expected<CameraParams, Fault> params_from_text(std::string_view text) noexcept {
-  return record_of<CameraParams>([&](CameraParams& into) { return read_text(text, into); });
+  return record_of<CameraParams>([&](CameraParams& into, Fault& fault) { return read_text(text, into, fault); });
 }
 tl::expected<CameraConstants, Fault> constants_from_text(std::string_view text) noexcept {
-  return record_of<CameraConstants>([&](CameraConstants& into) { return read_text(text, into); });
+  return record_of<CameraConstants>([&](CameraConstants& into, Fault& fault) { return read_text(text, into, fault); });
 }
 tl::expected<CameraParams, Fault> params_from_image(std::string_view image, Layout layout) noexcept {
-  return record_of<CameraParams>([&](CameraParams& into) { return read_image(image, layout, into); });
+  return record_of<CameraParams>(
+      [&](CameraParams& into, Fault& fault) { return read_image(image, layout, into, fault); });
 }
 tl::expected<CameraConstants, Fault> constants_from_image(std::string_view image, Layout layout) noexcept {
-  return record_of<CameraConstants>([&](CameraConstants& into) { return read_image(image, layout, into); });
+  return record_of<CameraConstants>(
+      [&](CameraConstants& into, Fault& fault) { return read_image(image, layout, into, fault); });
 }
 
 }  // namespace trk_bridge::wire

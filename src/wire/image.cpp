@@ -33,7 +33,7 @@ void for_each_number(const CameraConstants& c, Visit&& visit) noexcept {
 }
 
 template <class Record>
-FirstFault check_finite(const Record& record) noexcept {
+bool is_finite(const Record& record) noexcept {
   // Bit 63, into which an exponent of ones carries when its lowest bit is added.
   constexpr std::uint64_t exponent = 0x7FF0'0000'0000'0000, lowest = 0x0010'0000'0000'0000;
   std::uint64_t carried = 0;
@@ -42,12 +42,17 @@ FirstFault check_finite(const Record& record) noexcept {
     std::memcpy(&bits, &value, sizeof bits);
     carried |= (bits & exponent) + lowest;
   });
+  return carried >> 63U == 0;
+}
+
+/// Of the first number that is not finite.
+template <class Record>
+Fault not_finite(const Record& record) noexcept {
   FirstFault fault;
-  if (carried >> 63U == 0) return fault;
   for_each_number(record, [&fault](std::size_t place, double value) {
     if (!std::isfinite(value)) fault.note(about_field(Reason::not_finite, place));
   });
-  return fault;
+  return *fault;
 }
 
 /// A visitor that reads consecutive fields; `at` is the first.
@@ -69,7 +74,7 @@ auto store_to(char* at) noexcept {
 }
 
 template <ByteOrder order>
-void load_record(const char* image, Layout layout, CameraParams& p) noexcept {
+void load_record(const char* image, const Layout& layout, CameraParams& p) noexcept {
   const ParamsShape shape = params_shape(layout.generation, layout.abi);
   p.id = layout.generation == Generation::identified ? load<std::uint32_t>(image + id_offset, order) : 0;
   p.format = load<std::uint32_t>(image + shape.format, order);
@@ -86,7 +91,7 @@ void load_record(const char* image, Layout layout, CameraParams& p) noexcept {
 }
 
 template <ByteOrder order>
-void load_record(const char* image, Layout layout, CameraConstants& c) noexcept {
+void load_record(const char* image, const Layout& layout, CameraConstants& c) noexcept {
   const ConstantsShape shape = constants_shape(layout.generation, layout.abi);
   c.id = layout.generation == Generation::identified ? load<std::uint32_t>(image + id_offset, order) : 0;
   for_each_image_field(load_from<order>(image + shape.image), c);
@@ -95,7 +100,7 @@ void load_record(const char* image, Layout layout, CameraConstants& c) noexcept 
 
 /// Into zeros.
 template <ByteOrder order>
-void store_record(const CameraParams& p, Layout layout, char* image) noexcept {
+void store_record(const CameraParams& p, const Layout& layout, char* image) noexcept {
   const ParamsShape shape = params_shape(layout.generation, layout.abi);
   if (layout.generation == Generation::identified) store(p.id, image + id_offset, order);
   store(p.format, image + shape.format, order);
@@ -114,43 +119,50 @@ void store_record(const CameraParams& p, Layout layout, char* image) noexcept {
 }
 
 template <ByteOrder order>
-void store_record(const CameraConstants& c, Layout layout, char* image) noexcept {
+void store_record(const CameraConstants& c, const Layout& layout, char* image) noexcept {
   const ConstantsShape shape = constants_shape(layout.generation, layout.abi);
   if (layout.generation == Generation::identified) store(c.id, image + id_offset, order);
   for_each_image_field(store_to<order>(image + shape.image), c);
   for_each_chip_field(store_to<order>(image + shape.chip), c);
 }
 
-std::size_t size_of(const CameraParams&, Layout layout) noexcept { return params_size(layout); }
-std::size_t size_of(const CameraConstants&, Layout layout) noexcept { return constants_size(layout); }
+std::size_t size_of(const CameraParams&, const Layout& layout) noexcept {
+  return params_shape(layout.generation, layout.abi).size;
+}
+std::size_t size_of(const CameraConstants&, const Layout& layout) noexcept {
+  return constants_shape(layout.generation, layout.abi).size;
+}
 
 /// Whether the layout has room for what the record counts.
-FirstFault check_counter(const CameraParams& p, Layout layout) noexcept {
-  FirstFault fault;
-  const bool is_narrow = params_shape(layout.generation, layout.abi).counter_width == 4;
-  if (is_narrow && p.counter > std::numeric_limits<std::uint32_t>::max()) {
-    fault.note(about_field(Reason::out_of_range, counter_place(p.format)));
-  }
-  return fault;
+bool counter_fits(const CameraParams& p, const Layout& layout) noexcept {
+  return params_shape(layout.generation, layout.abi).counter_width == 8 ||
+         p.counter <= std::numeric_limits<std::uint32_t>::max();
 }
-FirstFault check_counter(const CameraConstants&, Layout) noexcept { return {}; }
 
 template <class Record>
-tl::expected<void, Fault> read(std::string_view image, Layout layout, Record& into) noexcept {
-  if (image.size() != size_of(into, layout)) return tl::unexpected(Fault{Reason::wrong_size});
+bool read(std::string_view image, const Layout& layout, Record& into, Fault& fault) noexcept {
+  if (image.size() != size_of(into, layout)) {
+    fault = {Reason::wrong_size};
+    return false;
+  }
   if (layout.byte_order == ByteOrder::little) {
     load_record<ByteOrder::little>(image.data(), layout, into);
   } else {
     load_record<ByteOrder::big>(image.data(), layout, into);
   }
-  if (const auto fault = check_finite(into)) return tl::unexpected(*fault);
-  return {};
+  if (is_finite(into)) return true;
+  fault = not_finite(into);
+  return false;
 }
 
 template <class Record>
-tl::expected<std::size_t, Fault> write(const Record& record, Layout layout, char* to) noexcept {
-  if (const auto fault = check_finite(record)) return tl::unexpected(*fault);
-  if (const auto fault = check_counter(record, layout)) return tl::unexpected(*fault);
+tl::expected<std::size_t, Fault> write(const Record& record, const Layout& layout, char* to) noexcept {
+  if (!is_finite(record)) return tl::unexpected(not_finite(record));
+  if constexpr (std::is_same_v<Record, CameraParams>) {
+    if (!counter_fits(record, layout)) {
+      return tl::unexpected(about_field(Reason::out_of_range, counter_place(record.format)));
+    }
+  }
   const std::size_t size = size_of(record, layout);
   std::memset(to, 0, size);
   if (layout.byte_order == ByteOrder::little) {
@@ -163,16 +175,16 @@ tl::expected<std::size_t, Fault> write(const Record& record, Layout layout, char
 
 }  // namespace
 
-tl::expected<void, Fault> read_image(std::string_view image, Layout layout, CameraParams& into) noexcept {
-  return read(image, layout, into);
+bool read_image(std::string_view image, const Layout& layout, CameraParams& into, Fault& fault) noexcept {
+  return read(image, layout, into, fault);
 }
-tl::expected<void, Fault> read_image(std::string_view image, Layout layout, CameraConstants& into) noexcept {
-  return read(image, layout, into);
+bool read_image(std::string_view image, const Layout& layout, CameraConstants& into, Fault& fault) noexcept {
+  return read(image, layout, into, fault);
 }
-tl::expected<std::size_t, Fault> write_image(const CameraParams& p, Layout layout, char* to) noexcept {
+tl::expected<std::size_t, Fault> write_image(const CameraParams& p, const Layout& layout, char* to) noexcept {
   return write(p, layout, to);
 }
-tl::expected<std::size_t, Fault> write_image(const CameraConstants& c, Layout layout, char* to) noexcept {
+tl::expected<std::size_t, Fault> write_image(const CameraConstants& c, const Layout& layout, char* to) noexcept {
   return write(c, layout, to);
 }
 

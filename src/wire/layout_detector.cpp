@@ -62,7 +62,7 @@ bool is_plausible(double value) noexcept {
 }
 
 /// Whether the doubles are ones that a record of this format has. `is_matrix` says what is one.
-bool transform_fits(std::string_view image, Layout layout, std::uint32_t format,
+bool transform_fits(std::string_view image, const Layout& layout, std::uint32_t format,
                     bool (*is_matrix)(const std::array<double, 16>&) noexcept) noexcept {
   const ParamsShape shape = params_shape(layout.generation, layout.abi);
   const auto matrix = load_doubles<16>(image.data() + shape.transform, layout.byte_order);
@@ -78,10 +78,11 @@ bool transform_fits(std::string_view image, Layout layout, std::uint32_t format,
   return plausible;
 }
 
+constexpr unsigned best_words = 2;
 /// How well the id and the format look: known bits 2, bits that could be known one day 1, anything else 0.
 unsigned words_grade(std::uint32_t id, std::uint32_t format) noexcept {
   if (id >= small_number) return format <= known_format_bits ? 1 : 0;
-  if (format <= known_format_bits) return 2;
+  if (format <= known_format_bits) return best_words;
   return format < small_number ? 1 : 0;
 }
 
@@ -96,7 +97,7 @@ struct Words {
   std::uint32_t first, second, id, format;
 };
 
-Words words_of(std::string_view image, Layout layout) noexcept {
+Words words_of(std::string_view image, const Layout& layout) noexcept {
   const auto first = load<std::uint32_t>(image.data(), layout.byte_order);
   const auto second = load<std::uint32_t>(image.data() + 4, layout.byte_order);
   return layout.generation == Generation::identified ? Words{first, second, first, second}
@@ -198,47 +199,62 @@ std::uint64_t LayoutDetectorAccess::counter(std::string_view image, Layout& layo
   }
   detector.last_wide_counter_ = wide;
   if (wide >> half != 0 && !detector.counter_abi_) detector.counter_abi_ = Abi::llp64;
-  layout.abi = detector.counter_abi_.value_or(Abi::lp64);
-  return layout.abi == Abi::lp64 ? wide : load<std::uint32_t>(at, layout.byte_order);
+  const Abi abi = detector.counter_abi_.value_or(Abi::lp64);
+  if (layout.abi != abi) layout.abi = abi;
+  return abi == Abi::lp64 ? wide : load<std::uint32_t>(at, layout.byte_order);
 }
 
-tl::expected<DecodedForm, Fault> LayoutDetectorAccess::params(std::string_view image, LayoutDetector& detector,
-                                                              Record& into) noexcept {
+bool LayoutDetectorAccess::read(std::string_view image, LayoutDetector& detector, const Layout& layout,
+                                CameraParams& into, DecodedForm& form, Fault& fault) noexcept {
+  if (!read_image(image, layout, into, fault)) return false;
+  if (!detector.seen_ || *detector.seen_ != layout) detector.seen_ = layout;
+  if (!detector.given_.abi && layout.abi != Abi::i386) into.counter = counter(image, *detector.seen_, detector);
+  form.form = {Encoding::binary, *detector.seen_};
+  form.layout_guessed = false;
+  return true;
+}
+
+bool LayoutDetectorAccess::params(std::string_view image, LayoutDetector& detector, Record& into, DecodedForm& form,
+                                  Fault& fault) noexcept {
   const LayoutChoice& given = detector.given_;
-  const auto known =
+  const auto& known =
       detector.generation_of_constants_ ? detector.generation_of_constants_ : detector.only_possible_generation_;
-
-  Choice choice;
-  if (detector.seen_) {
-    Layout as_before = *detector.seen_;
-    // Which of the two it is the counter shows.
-    if (!given.abi && as_before.abi == Abi::llp64) as_before.abi = Abi::lp64;
-    if (params_size(as_before) == image.size()) choice.best = rate(image, as_before, known, detector.seen_);
-  }
-  // What fits, has the known generation and the best of words and comes as before outweighs every other reading.
-  if (!choice.best.known || choice.best.words != 2) {
-    const Candidates candidates = candidates_for(image.size(), given, params_size);
-    if (candidates.count == 0) return tl::unexpected(candidates.fault_if_none());
-    choice = choose(image, candidates, known, detector.seen_);
-  }
-  const auto& [best, ambiguous] = choice;
-  if (!best.fits && !given.generation) return tl::unexpected(Fault{Reason::no_valid_layout});
-  Layout layout = best.layout;
   CameraParams& params = record_in<CameraParams>(into);
-  if (const auto read = read_image(image, layout, params); !read) return tl::unexpected(read.error());
-  if (!given.abi && layout.abi == Abi::lp64) params.counter = counter(image, layout, detector);
 
-  if (best.words == 2 && !ambiguous) detector.only_possible_generation_ = layout.generation;
-  detector.seen_ = layout;
+  if (detector.seen_ && known == detector.seen_->generation && params_size(*detector.seen_) == image.size()) {
+    const Layout& seen = *detector.seen_;
+    const Words words = words_of(image, seen);
+    // What fits, has the known generation and the best of words and comes as before outweighs every other reading.
+    if (words_grade(words.id, words.format) == best_words && transform_fits(image, seen, words.format, is_affine)) {
+      return read(image, detector, seen, params, form, fault);
+    }
+  }
+
+  const Candidates candidates = candidates_for(image.size(), given, params_size);
+  if (candidates.count == 0) {
+    fault = candidates.fault_if_none();
+    return false;
+  }
+  const auto [best, ambiguous] = choose(image, candidates, known, detector.seen_);
+  if (!best.fits && !given.generation) {
+    fault = {Reason::no_valid_layout};
+    return false;
+  }
+  if (!read(image, detector, best.layout, params, form, fault)) return false;
+  if (best.words == best_words && !ambiguous) detector.only_possible_generation_ = best.layout.generation;
   const bool same_either_way = params.id == 0 && params.format == 0;
-  return DecodedForm{{Encoding::binary, layout}, ambiguous && !best.known && !same_either_way};
+  form.layout_guessed = ambiguous && !best.known && !same_either_way;
+  return true;
 }
 
-tl::expected<DecodedForm, Fault> LayoutDetectorAccess::constants(std::string_view image, LayoutDetector& detector,
-                                                                 Record& into) noexcept {
+bool LayoutDetectorAccess::constants(std::string_view image, LayoutDetector& detector, Record& into, DecodedForm& form,
+                                     Fault& fault) noexcept {
   const LayoutChoice& given = detector.given_;
   const Candidates candidates = candidates_for(image.size(), given, constants_size);
-  if (candidates.count == 0) return tl::unexpected(candidates.fault_if_none());
+  if (candidates.count == 0) {
+    fault = candidates.fault_if_none();
+    return false;
+  }
 
   std::optional<Layout> chosen;
   bool valid = false;
@@ -251,9 +267,11 @@ tl::expected<DecodedForm, Fault> LayoutDetectorAccess::constants(std::string_vie
       valid = this_valid;
     }
   }
-  const auto read = read_image(image, *chosen, record_in<CameraConstants>(into));
-  if (!read) return tl::unexpected(read.error());
-  if (!valid && !given.generation) return tl::unexpected(Fault{Reason::no_valid_layout});
+  if (!read_image(image, *chosen, record_in<CameraConstants>(into), fault)) return false;
+  if (!valid && !given.generation) {
+    fault = {Reason::no_valid_layout};
+    return false;
+  }
 
   Layout layout = *chosen;
   if (!given.abi && detector.seen_ && constants_size({layout.generation, detector.seen_->abi}) == image.size()) {
@@ -261,7 +279,8 @@ tl::expected<DecodedForm, Fault> LayoutDetectorAccess::constants(std::string_vie
   }
   detector.generation_of_constants_ = layout.generation;
   detector.seen_ = layout;
-  return DecodedForm{{Encoding::binary, layout}};
+  form = {{Encoding::binary, layout}};
+  return true;
 }
 
 }  // namespace trk_bridge::wire

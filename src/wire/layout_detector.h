@@ -3,20 +3,21 @@
 
 #include <string_view>
 
-#include <tl/expected.hpp>
-
 #include "trk_bridge/wire/codec.h"
 
 namespace trk_bridge::wire {
 
 /// Reads one image into `into` and, when it is good, remembers in the `LayoutDetector` what it shows of the sender.
 struct LayoutDetectorAccess {
-  [[nodiscard]] static tl::expected<DecodedForm, Fault> params(std::string_view image, LayoutDetector& detector,
-                                                               Record& into) noexcept;
-  [[nodiscard]] static tl::expected<DecodedForm, Fault> constants(std::string_view image, LayoutDetector& detector,
-                                                                  Record& into) noexcept;
+  [[nodiscard]] static bool params(std::string_view image, LayoutDetector& detector, Record& into, DecodedForm& form,
+                                   Fault& fault) noexcept;
+  [[nodiscard]] static bool constants(std::string_view image, LayoutDetector& detector, Record& into, DecodedForm& form,
+                                      Fault& fault) noexcept;
 
  private:
+  /// Reads `into` in this layout and remembers that.
+  static bool read(std::string_view image, LayoutDetector& detector, const Layout&, CameraParams& into,
+                   DecodedForm& form, Fault& fault) noexcept;
   /// The counter of a 200-byte image, and its abi into `layout`.
   static std::uint64_t counter(std::string_view image, Layout& layout, LayoutDetector& detector) noexcept;
 };

@@ -14,17 +14,18 @@ namespace trk_bridge::wire {
 /// Room that any payload leaves free behind a header.
 inline constexpr std::size_t payload_room = max_datagram - header_size;
 
-/// Reads all fields of `into`, which are anything after a fault.
-[[nodiscard]] tl::expected<void, Fault> read_text(std::string_view text, CameraParams& into) noexcept;
-[[nodiscard]] tl::expected<void, Fault> read_text(std::string_view text, CameraConstants& into) noexcept;
-[[nodiscard]] tl::expected<void, Fault> read_image(std::string_view image, Layout, CameraParams& into) noexcept;
-[[nodiscard]] tl::expected<void, Fault> read_image(std::string_view image, Layout, CameraConstants& into) noexcept;
+/// Reads all fields of `into`. False: `fault` says why, and `into` is any record. (A tl::expected of a few bytes takes
+/// longer to return than a binary record to read: it is written by bytes and read as a word.)
+[[nodiscard]] bool read_text(std::string_view text, CameraParams& into, Fault& fault) noexcept;
+[[nodiscard]] bool read_text(std::string_view text, CameraConstants& into, Fault& fault) noexcept;
+[[nodiscard]] bool read_image(std::string_view image, const Layout&, CameraParams& into, Fault& fault) noexcept;
+[[nodiscard]] bool read_image(std::string_view image, const Layout&, CameraConstants& into, Fault& fault) noexcept;
 
 /// Write up to `payload_room` bytes and return how many.
 [[nodiscard]] tl::expected<std::size_t, Fault> write_text(const CameraParams&, char* to) noexcept;
 [[nodiscard]] tl::expected<std::size_t, Fault> write_text(const CameraConstants&, char* to) noexcept;
-[[nodiscard]] tl::expected<std::size_t, Fault> write_image(const CameraParams&, Layout, char* to) noexcept;
-[[nodiscard]] tl::expected<std::size_t, Fault> write_image(const CameraConstants&, Layout, char* to) noexcept;
+[[nodiscard]] tl::expected<std::size_t, Fault> write_image(const CameraParams&, const Layout&, char* to) noexcept;
+[[nodiscard]] tl::expected<std::size_t, Fault> write_image(const CameraConstants&, const Layout&, char* to) noexcept;
 
 /// Makes what the format does not select of the transform zero.
 inline void clear_unselected(CameraParams& p) noexcept {

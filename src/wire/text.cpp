@@ -53,12 +53,12 @@ class Reader {
     return [this, place](const Field&, auto& value) mutable { number(place++, value); };
   }
 
-  /// The first fault, counting what stands behind the last field.
-  tl::expected<void, Fault> finish() noexcept {
+  /// False where there was a fault: the first, counting what stands behind the last field.
+  bool finish(Fault& fault) noexcept {
     skip_space();
     if (at_ != end_) fault_.note({Reason::trailing_text});
-    if (fault_) return tl::unexpected(*fault_);
-    return {};
+    if (fault_) fault = *fault_;
+    return !fault_;
   }
 
  private:
@@ -143,7 +143,7 @@ void read_matrix(Reader& reader, std::array<double, 16>& matrix) noexcept {
 
 }  // namespace
 
-tl::expected<void, Fault> read_text(std::string_view text, CameraParams& into) noexcept {
+bool read_text(std::string_view text, CameraParams& into, Fault& fault) noexcept {
   Reader reader(text);
   into.id = 0;
   reader.id(into.id);
@@ -156,16 +156,16 @@ tl::expected<void, Fault> read_text(std::string_view text, CameraParams& into) n
   }
   for_each_lens_field(reader.numbers_from(lens_place(into.format)), into);
   reader.number(counter_place(into.format), into.counter);
-  return reader.finish();
+  return reader.finish(fault);
 }
 
-tl::expected<void, Fault> read_text(std::string_view text, CameraConstants& into) noexcept {
+bool read_text(std::string_view text, CameraConstants& into, Fault& fault) noexcept {
   Reader reader(text);
   into.id = 0;
   reader.id(into.id);
   for_each_image_field(reader.numbers_from(image_place), into);
   for_each_chip_field(reader.numbers_from(chip_place), into);
-  return reader.finish();
+  return reader.finish(fault);
 }
 
 tl::expected<std::size_t, Fault> write_text(const CameraParams& p, char* to) noexcept {

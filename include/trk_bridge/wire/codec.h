@@ -47,9 +47,9 @@ struct Decoded : DecodedForm {
 
 /// One whole datagram. `detector` is the one of its sender; it learns from good binary records.
 [[nodiscard]] tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutDetector& detector) noexcept;
-/// The same into a record that is there already, which is the quickest; it is any record after a fault.
-[[nodiscard]] tl::expected<DecodedForm, Fault> decode(std::string_view datagram, LayoutDetector& detector,
-                                                      Record& into) noexcept;
+/// The same into what is there already, which is quicker. False: `fault` says why, and `into` is any record.
+[[nodiscard]] bool decode(std::string_view datagram, LayoutDetector& detector, Record& into, DecodedForm& form,
+                          Fault& fault) noexcept;
 
 /// One whole datagram into `buffer`; the view covers its bytes. ASCII ends in its NUL. A number that is not finite is
 /// refused (not_finite), as is a counter that the layout cannot hold (out_of_range). The id is dropped in the
