@@ -98,14 +98,19 @@ void load_record(const char* image, const Layout& layout, CameraConstants& c) no
   for_each_chip_field(load_from<order>(image + shape.chip), c);
 }
 
-/// Into zeros.
+/// The whole of an image, with zeros between the fields.
 template <ByteOrder order>
 void store_record(const CameraParams& p, const Layout& layout, char* image) noexcept {
   const ParamsShape shape = params_shape(layout.generation, layout.abi);
+  const auto zero = [image](std::size_t begin, std::size_t end) {
+    if (begin != end) std::memset(image + begin, 0, end - begin);
+  };
   if (layout.generation == Generation::identified) store(p.id, image + id_offset, order);
   store(p.format, image + shape.format, order);
+  zero(shape.format + sizeof p.format, shape.transform);
   if (has(p.format, euler)) {
     for_each_euler_field(store_to<order>(image + shape.transform), p.euler);
+    zero(shape.transform + sizeof p.euler, shape.lens);
   } else {
     auto store_next = store_to<order>(image + shape.transform);
     for (const double value : p.matrix) store_next({}, value);
@@ -116,11 +121,13 @@ void store_record(const CameraParams& p, const Layout& layout, char* image) noex
   } else {
     store(static_cast<std::uint32_t>(p.counter), image + shape.counter, order);
   }
+  zero(shape.counter + shape.counter_width, shape.size);
 }
 
 template <ByteOrder order>
 void store_record(const CameraConstants& c, const Layout& layout, char* image) noexcept {
   const ConstantsShape shape = constants_shape(layout.generation, layout.abi);
+  std::memset(image, 0, shape.chip);
   if (layout.generation == Generation::identified) store(c.id, image + id_offset, order);
   for_each_image_field(store_to<order>(image + shape.image), c);
   for_each_chip_field(store_to<order>(image + shape.chip), c);
@@ -164,7 +171,6 @@ tl::expected<std::size_t, Fault> write(const Record& record, const Layout& layou
     }
   }
   const std::size_t size = size_of(record, layout);
-  std::memset(to, 0, size);
   if (layout.byte_order == ByteOrder::little) {
     store_record<ByteOrder::little>(record, layout, to);
   } else {

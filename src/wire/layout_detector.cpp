@@ -33,20 +33,24 @@ struct Candidates {
   Fault fault_if_none() const noexcept { return {size_known ? Reason::layout_mismatch : Reason::wrong_size}; }
 };
 
+template <class T>
+bool allows(const std::optional<T>& given, T value) noexcept {
+  return !given || *given == value;
+}
+
 template <class Size>
 Candidates candidates_for(std::size_t size, const LayoutChoice& given, Size size_of) noexcept {
   Candidates found;
   for (const auto& generation : generations) {
-    for (const auto& byte_order : byte_orders) {
-      bool taken = false;
-      for (const auto& abi : abis) {
-        const Layout layout{generation.value, abi.value, byte_order.value};
-        if (size_of(layout) != size) continue;
-        found.size_known = true;
-        if (taken || resolve(given, layout) != layout) continue;
-        found.layouts[found.count++] = layout;
-        taken = true;
+    for (const auto& abi : abis) {
+      if (size_of(Layout{generation.value, abi.value, {}}) != size) continue;
+      found.size_known = true;
+      if (!allows(given.generation, generation.value) || !allows(given.abi, abi.value)) continue;
+      for (const auto& byte_order : byte_orders) {
+        if (!allows(given.byte_order, byte_order.value)) continue;
+        found.layouts[found.count++] = {generation.value, abi.value, byte_order.value};
       }
+      break;
     }
   }
   return found;
@@ -55,10 +59,14 @@ Candidates candidates_for(std::size_t size, const LayoutChoice& given, Size size
 /// A number that a camera could have, or one that is not finite, a fault of its own. Bytes that never were a double
 /// seldom look like one.
 bool is_plausible(double value) noexcept {
-  // Without branches, for many of them are asked one after another.
-  const double magnitude = std::abs(value);
-  const bool is_likely = (magnitude > 1e-50) & (magnitude < 1e12);
-  return is_likely | (value == 0) | !(magnitude <= std::numeric_limits<double>::max());
+  // Magnitudes are in the order of their bits. No branches, for many are asked one after another.
+  constexpr auto bits_of = [](double number) { return __builtin_bit_cast(std::uint64_t, number); };
+  constexpr std::uint64_t least = bits_of(1e-50) + 1, limit = bits_of(1e12);
+  constexpr std::uint64_t infinite = bits_of(std::numeric_limits<double>::infinity());
+  const std::uint64_t magnitude = bits_of(value) & ~(std::uint64_t{1} << 63U);
+  const bool is_likely = magnitude - least < limit - least;
+  const bool is_zero = magnitude == 0, is_not_finite = magnitude >= infinite;
+  return is_likely | is_zero | is_not_finite;
 }
 
 /// Whether the doubles are ones that a record of this format has. `is_matrix` says what is one.
@@ -230,7 +238,8 @@ bool LayoutDetectorAccess::params(std::string_view image, LayoutDetector& detect
     }
   }
 
-  const Candidates candidates = candidates_for(image.size(), given, params_size);
+  const Candidates candidates =
+      candidates_for(image.size(), given, [](const Layout& l) { return params_shape(l.generation, l.abi).size; });
   if (candidates.count == 0) {
     fault = candidates.fault_if_none();
     return false;
@@ -250,7 +259,8 @@ bool LayoutDetectorAccess::params(std::string_view image, LayoutDetector& detect
 bool LayoutDetectorAccess::constants(std::string_view image, LayoutDetector& detector, Record& into, DecodedForm& form,
                                      Fault& fault) noexcept {
   const LayoutChoice& given = detector.given_;
-  const Candidates candidates = candidates_for(image.size(), given, constants_size);
+  const Candidates candidates =
+      candidates_for(image.size(), given, [](const Layout& l) { return constants_shape(l.generation, l.abi).size; });
   if (candidates.count == 0) {
     fault = candidates.fault_if_none();
     return false;
