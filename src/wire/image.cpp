@@ -82,8 +82,7 @@ void load_record(const char* image, const Layout& layout, CameraParams& p) noexc
   if (has(p.format, euler)) {
     for_each_euler_field(load_from<order>(image + shape.transform), p.euler);
   } else {
-    auto load_next = load_from<order>(image + shape.transform);
-    for (double& value : p.matrix) load_next({}, value);
+    p.matrix = load_doubles<16>(image + shape.transform, order);
   }
   for_each_lens_field(load_from<order>(image + shape.lens), p);
   p.counter = shape.counter_width == 8 ? load<std::uint64_t>(image + shape.counter, order)
