@@ -151,7 +151,7 @@ class Handles {
 
 /// The handles of a kind, alive until the process ends: functions registered with atexit use them.
 template <typename Transfer>
-Handles<Transfer>& handles() {
+[[gnu::always_inline]] inline Handles<Transfer>& handles() {
   static auto* const all = new Handles<Transfer>;
   return *all;
 }

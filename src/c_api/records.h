@@ -106,22 +106,32 @@ inline constexpr bool has_native_params =
 
 inline unsigned format_of(const NativeParams& n) noexcept { return static_cast<unsigned>(n[0] >> 32U); }
 
-/// Makes what the format does not select of the transform zero.
-inline void clear_unselected(NativeParams& n) noexcept {
-  if (!wire::has(format_of(n), wire::euler)) return;
-#pragma GCC unroll 10
-  for (std::size_t i = 7; i < 17; ++i) n[i] = 0;
-}
+/// The words of the transform that Euler angles leave out.
+inline constexpr std::size_t after_euler = 7, after_transform = 17, after_lens = 24;
 
-/// After clear_unselected().
+/// Whether those that count are.
 inline bool is_finite(const NativeParams& n) noexcept {
   // Bit 63, into which an exponent of ones carries when its lowest bit is added. Whole numbers, since a sum of doubles
   // waits for each of them in turn.
   constexpr std::uint64_t exponent = 0x7FF0'0000'0000'0000, lowest = 0x0010'0000'0000'0000;
-  const auto carry = [&n](std::size_t i) { return (n[i] & exponent) + lowest; };
-  std::uint64_t carried = carry(23);
-  for (std::size_t i = 1; i < 23; ++i) carried |= carry(i);
+  std::uint64_t carried = 0;
+  const auto carry = [&n, &carried](std::size_t i) { carried |= (n[i] & exponent) + lowest; };
+#pragma GCC unroll 8
+  for (std::size_t i = after_transform; i < after_lens; ++i) carry(i);
+#pragma GCC unroll 8
+  for (std::size_t i = 1; i < after_euler; ++i) carry(i);
+  if (!wire::has(format_of(n), wire::euler)) {
+#pragma GCC unroll 16
+    for (std::size_t i = after_euler; i < after_transform; ++i) carry(i);
+  }
   return carried >> 63U == 0;
+}
+
+/// Makes what the format does not select of the transform zero.
+inline void clear_unselected(NativeParams& n) noexcept {
+  if (!wire::has(format_of(n), wire::euler)) return;
+#pragma GCC unroll 10
+  for (std::size_t i = after_euler; i < after_transform; ++i) n[i] = 0;
 }
 
 inline NativeParams to_native(const trkCameraParams& c) noexcept {
@@ -142,6 +152,9 @@ inline void from_native(const NativeParams& n, trkCameraParams& c) noexcept {
 #endif
   c.format = format_of(n);
   std::memcpy(reinterpret_cast<char*>(&c) + sizeof n[0], &n[1], sizeof n - sizeof n[0]);
+  if (!wire::has(format_of(n), wire::euler)) return;
+  std::memset(reinterpret_cast<char*>(&c) + after_euler * sizeof n[0], 0,
+              (after_transform - after_euler) * sizeof n[0]);
 }
 
 /// Whether a program passed something that may be written.

@@ -67,17 +67,20 @@ ReadResult read_new(Memory& memory, trkCameraConstants& into) noexcept {
 }
 
 // What is in the layout of this program's own structures is copied as it is.
-ReadResult read_new(Memory& memory, trkCameraParams& into) noexcept {
-  if (!memory.has_new_params()) return ReadResult::nothing;
+ReadResult read_fresh(Memory& memory, trkCameraParams& into) noexcept {
   shm::RecordImage image;
   std::string_view bytes;
   transport::Fault fault;
   const ReadResult result = memory.read_params(image, bytes, fault);
   if (result != ReadResult::fresh) return result;
   if (has_native_params && memory.read_in() == shm::default_layout) {
+    // By words, as they were copied out of the segment: the processor waits where it is to read what it has just
+    // written in smaller parts.
     NativeParams native;
-    std::memcpy(native.data(), bytes.data(), sizeof native);
-    clear_unselected(native);
+#pragma GCC unroll 1
+    for (std::size_t i = 0; i < native.size(); ++i) {
+      std::memcpy(&native[i], bytes.data() + i * sizeof native[i], sizeof native[i]);
+    }
     if (!is_finite(native)) return ReadResult::malformed;
     from_native(native, into);
     return result;
@@ -88,12 +91,18 @@ ReadResult read_new(Memory& memory, trkCameraParams& into) noexcept {
   return result;
 }
 
+// Programs ask far more often than something has come.
+inline ReadResult read_new(Memory& memory, trkCameraParams& into) noexcept {
+  return memory.has_new_params() ? read_fresh(memory, into) : ReadResult::nothing;
+}
+
 template <typename CRecord>
 trkError read(trkHandle handle, CRecord* into) {
   return guarded([&] {
+    const auto now = coarse_now();
     return handles<Memory>().with(handle, [&](Memory& memory) {
       if (into == nullptr) return trkFailed;
-      if (const auto kept = memory.keep(coarse_now()); !kept) {
+      if (const auto kept = memory.keep(now); !kept) {
         return shm::is_absence(kept.error().problem) ? trkUnavailable : error_of(kept.error());
       }
       return error_of(read_new(memory, *into));
@@ -118,9 +127,10 @@ bool put(Memory& memory, const trkCameraParams& params) noexcept {
 template <typename CRecord>
 trkError write(trkHandle handle, const CRecord* record) {
   return guarded([&] {
+    const auto now = coarse_now();
     return handles<Memory>().with(handle, [&](Memory& memory) {
       if (!is_writable(record)) return trkFailed;
-      if (const auto kept = memory.keep_for_writing(coarse_now()); !kept) return error_of(kept.error());
+      if (const auto kept = memory.keep_for_writing(now); !kept) return error_of(kept.error());
       if (!memory.segment()->writable()) return trkFailed;
       return put(memory, *record) ? trkOK : trkFailed;
     });
