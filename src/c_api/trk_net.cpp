@@ -11,24 +11,25 @@
 #include "handles.h"
 #include "params_ring.h"
 #include "records.h"
+#include "transport/receive_socket.h"
 #include "transport/socket.h"
+#include "trk/datagram_decoder.h"
 #include "trk/udp.h"
+#include "trk_bridge/transport/sample.h"
 
 namespace trk_bridge::c_api {
 namespace {
-
-using transport::Event;
 
 // A call ends even when datagrams come faster than it reads them. No receive buffer holds that many.
 constexpr int most_datagrams = 32768;
 
 bool is_port(int port) noexcept { return port >= 1 && port <= std::numeric_limits<std::uint16_t>::max(); }
 
-/// One receiving port and what arrived there.
+/// One receiving port and what arrived there. It has no use for what a transport::Source adds to the socket.
 class NetReader {
  public:
-  NetReader(std::unique_ptr<transport::Source> source, bool skips_old)
-      : source_(std::move(source)), skips_old_(skips_old) {}
+  NetReader(std::unique_ptr<transport::ReceiveSocket> socket, bool skips_old)
+      : socket_(std::move(socket)), skips_old_(skips_old) {}
 
   trkError read(trkCameraParams& into) {
     const bool works = drain();
@@ -65,29 +66,39 @@ class NetReader {
   /// False when the port can no longer be read.
   bool drain() {
     for (int i = 0; i < most_datagrams; ++i) {
-      switch (source_->receive(reception_, std::chrono::nanoseconds::zero())) {
-        case Event::sample:
-          if (const auto* params = std::get_if<wire::CameraParams>(&reception_.sample.record)) {
+      int error = 0;
+      const auto datagram = socket_->next(/*waits=*/false, error);
+      if (!datagram) return !transport::is_lasting(error);
+      if (datagram->was_longer) {
+        unsound_ = true;
+      } else {
+        decoder_.begin(datagram->bytes, datagram->sender);
+        take_samples();
+      }
+      // All that was there when the call began. Asking once more would double the system calls.
+      if (!socket_->has_more()) return true;
+    }
+    return true;
+  }
+
+  void take_samples() {
+    for (;;) {
+      switch (decoder_.next(sample_, fault_)) {
+        case transport::Decoder::Next::sample:
+          if (const auto* params = std::get_if<wire::CameraParams>(&sample_.record)) {
             ring_.push(*params);
           } else {
-            constants_ = std::get<wire::CameraConstants>(reception_.sample.record);
+            constants_ = std::get<wire::CameraConstants>(sample_.record);
             has_new_constants_ = true;
           }
           break;
-        case Event::malformed:
+        case transport::Decoder::Next::fault:
           unsound_ = true;
           break;
-        case Event::idle:
-          return true;
-        case Event::stopped:
-        case Event::ended:
-        case Event::failed:
-          return false;
+        case transport::Decoder::Next::none:
+          return;
       }
-      // All that was there when the call began. Asking once more would double the system calls.
-      if (!reception_.more) return true;
     }
-    return true;
   }
 
   template <typename Record, typename CRecord>
@@ -100,8 +111,10 @@ class NetReader {
     return std::exchange(unsound_, false) ? trkInvalidVersion : trkUnavailable;
   }
 
-  std::unique_ptr<transport::Source> source_;
-  transport::Reception reception_;
+  std::unique_ptr<transport::ReceiveSocket> socket_;
+  trk::DatagramDecoder decoder_{wire::LayoutChoice{}};
+  transport::Sample sample_;
+  transport::Fault fault_;
   ParamsRing ring_;
   std::optional<wire::CameraConstants> constants_;
   bool has_new_constants_ = false;
@@ -133,9 +146,10 @@ trkError send(trkHandle handle, const CRecord* record) {
 trkError open_reader(int port, bool skips_old, trkHandle* handle) {
   return guarded([&] {
     if (handle == nullptr || !is_port(port)) return trkFailed;
-    trk::UdpSourceSettings settings;
+    transport::ReceiveSettings settings;
     settings.port = static_cast<std::uint16_t>(port);
-    *handle = handles<NetReader>().open(trk::open_udp_source(settings), skips_old);
+    settings.has_arrivals = false;
+    *handle = handles<NetReader>().open(std::make_unique<transport::ReceiveSocket>(settings), skips_old);
     return trkOK;
   });
 }

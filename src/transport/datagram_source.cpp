@@ -11,11 +11,6 @@
 namespace trk_bridge::transport {
 namespace {
 
-// Errors that stay. Others are of one datagram or one moment, such as an interface that went down.
-bool ends_source(int error) noexcept {
-  return error == EBADF || error == ENOTSOCK || error == EFAULT || error == EINVAL;
-}
-
 // What is there already is read even when the time is up, but no more than this of it: datagrams that give nothing, as
 // those of refused senders, may come faster than they are read.
 constexpr std::uint64_t most_after_deadline = 4096;
@@ -74,7 +69,7 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
       decoder_->begin(datagram->bytes, sender_);
       continue;
     }
-    if (ends_source(error)) return failed(error);
+    if (is_lasting(error)) return failed(error);
     // One system call waits and reads; with a time limit there are three.
     if (deadline.is_endless()) continue;
     // With no time to wait, what is there was asked for.

@@ -111,12 +111,16 @@ Descriptor open_bound(const ReceiveSettings& settings, SocketAddress& address) {
   set_buffer(fd, settings.buffer);
   // The first socket of a machine to ask wakes the stamping, which takes the kernel a moment: a datagram that comes
   // within it is stamped when it is read.
-  set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1, "receive times");
+  if (settings.has_arrivals) set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1, "receive times");
   if (!dropped_by_kernel(fd)) throw TransportError("the kernel does not count its drops (Linux 4.12 or later does)");
   return socket;
 }
 
 }  // namespace
+
+bool is_lasting(int error) noexcept {
+  return error == EBADF || error == ENOTSOCK || error == EFAULT || error == EINVAL;
+}
 
 ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings)
     : settings_(settings),
@@ -153,7 +157,7 @@ ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings)
     header.msg_iov = &parts_[i];
     header.msg_iovlen = 1;
     header.msg_name = &senders_[i];
-    header.msg_control = controls_[i].data;
+    if (settings.has_arrivals) header.msg_control = controls_[i].data;
   }
   if (watch_) watch_->start([this](const InterfaceWatch::Removed& removed) { return follow_or_say_why(removed); });
 }
@@ -265,7 +269,7 @@ std::uint64_t ReceiveSocket::kernel_drops() const noexcept {
 int ReceiveSocket::fill(bool waits) noexcept {
   for (auto& header : headers_) {
     header.msg_hdr.msg_namelen = sizeof(sockaddr_storage);
-    header.msg_hdr.msg_controllen = sizeof(Control);
+    header.msg_hdr.msg_controllen = settings_.has_arrivals ? sizeof(Control) : 0;
   }
   const int came = ::recvmmsg(socket_.get(), headers_.data(), batch, waits ? MSG_WAITFORONE : MSG_DONTWAIT, nullptr);
   // The end of a wait looks like an empty datagram that nobody sent.
@@ -310,7 +314,7 @@ std::optional<ReceiveSocket::Datagram> ReceiveSocket::next(bool waits, int& erro
   datagram.was_longer = (headers_[i].msg_hdr.msg_flags & MSG_TRUNC) != 0;
   datagram.sender = sender_of(senders_[i]);
   datagram.is_allowed = is_allowed(datagram.sender);
-  datagram.arrival = arrival(i);
+  if (settings_.has_arrivals) datagram.arrival = arrival(i);
   return datagram;
 }
 

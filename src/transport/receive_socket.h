@@ -39,11 +39,17 @@ struct ReceiveSettings {
   /// The kernel's receive buffer in bytes, 1 to 1073741823. Opening fails when the kernel grants less. None:
   /// default_receive_buffer, or as much of it as the kernel grants.
   std::optional<int> buffer;
+  /// Whether datagrams have their receive times, which take the kernel a moment each.
+  bool has_arrivals = true;
 };
 
 /// Holds 0.2 s of 256 cameras at 120 Hz where the kernel counts at most 2730 bytes for a datagram (on the loopback 1280
 /// for 200 to 600 bytes). It counts its own bookkeeping and allows twice what it grants.
 inline constexpr int default_receive_buffer = 8 << 20;
+
+/// Whether an error of reading is one that stays. Others are of one datagram or one moment, such as an interface that
+/// went down.
+bool is_lasting(int error) noexcept;
 
 /// Bound from construction to destruction; to an address that is another one on each interface (fe80::1%eth0, ff02::7),
 /// when that is there. One thread at a time but for stop(), granted_buffer(), kernel_drops() and
@@ -77,7 +83,7 @@ class ReceiveSocket {
     bool was_longer = false;  ///< than wire::max_datagram; `bytes` are its beginning
     Sender sender;
     bool is_allowed = true;    ///< the sender
-    std::int64_t arrival = 0;  ///< ns since 1970 UTC: the kernel's stamp
+    std::int64_t arrival = 0;  ///< ns since 1970 UTC: the kernel's stamp; 0 without `has_arrivals`
   };
   /// The next datagram; its bytes stay until the next call. None when nothing is there or, with errno in `error`, the
   /// system refused. `waits`: until one is there, but none as well when it is time to look whether to go on.
