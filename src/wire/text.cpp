@@ -6,6 +6,7 @@
 #include "payload.h"
 #include "places.h"
 #include "plain_number.h"
+#include "shortest.h"
 #include "trk_bridge/wire/fields.h"
 #include "words.h"
 
@@ -104,10 +105,13 @@ class Writer {
   template <class T>
   void number(std::size_t place, T value) noexcept {
     if constexpr (std::is_floating_point_v<T>) {
-      if (!std::isfinite(value)) fault_.note(about_field(Reason::not_finite, place));
+      if (!std::isfinite(value)) return fault_.note(about_field(Reason::not_finite, place));
+      separate();
+      at_ = write_shortest(value, at_);
+    } else {
+      separate();
+      at_ = std::to_chars(at_, limit(), value).ptr;
     }
-    separate();
-    at_ = std::to_chars(at_, limit(), value).ptr;
   }
 
   /// A visitor of consecutive fields, the first of which has this place.
