@@ -27,10 +27,11 @@ constexpr std::uint32_t euler = wire::euler | wire::studio_y_up;
 constexpr std::uint32_t matrix = wire::studio_y_up;
 constexpr std::size_t many = 512;
 
-/// A shot: the camera moves and zooms, and with the zoom the lens changes; the iris stays.
-CameraParams field_of_shot(std::uint32_t format, std::size_t i) {
+/// A shot: the camera moves, and where it zooms, the lens changes; the iris stays.
+CameraParams field_of_shot(std::uint32_t format, bool zooms, std::size_t i) {
   const double t = 0.02 * static_cast<double>(i);
-  const double pan = 0.7 * std::sin(0.31 * t), tilt = 0.2 * std::sin(0.53 * t), zoom = 1.5 + std::sin(0.17 * t);
+  const double pan = 0.7 * std::sin(0.31 * t), tilt = 0.2 * std::sin(0.53 * t),
+               zoom = 1.5 + std::sin(zooms ? 0.17 * t : 1);
   CameraParams p;
   p.format = format;
   if (wire::has(format, wire::euler)) {
@@ -60,15 +61,15 @@ CameraParams field_of_shot(std::uint32_t format, std::size_t i) {
   p.center_y = -0.0549277 / zoom;
   p.k1 = -0.00062933 / zoom;
   p.k2 = 4.265851e-06 / (zoom * zoom);
-  p.focdist = 4.5 + std::sin(0.7 * t);
+  p.focdist = 4.5 + std::sin(zooms ? 0.7 * t : 1);
   p.aperture = 4;
   p.counter = 4240746277 + i;
   return p;
 }
 
-std::vector<CameraParams> shot(std::uint32_t format) {
+std::vector<CameraParams> shot(std::uint32_t format, bool zooms = true) {
   std::vector<CameraParams> all;
-  for (std::size_t i = 0; i < many; ++i) all.push_back(field_of_shot(format, i));
+  for (std::size_t i = 0; i < many; ++i) all.push_back(field_of_shot(format, zooms, i));
   return all;
 }
 
@@ -171,8 +172,8 @@ void decode(benchmark::State& state, std::vector<std::string> datagrams, bool wi
 }
 
 /// A record to a whole datagram.
-void encode(benchmark::State& state, std::uint32_t format, wire::Encoding encoding) {
-  Ring<CameraParams> ring(shot(format));
+void encode(benchmark::State& state, const std::vector<CameraParams>& records, wire::Encoding encoding) {
+  Ring<CameraParams> ring(records);
   trk::DatagramEncoder encoder(form_of(encoding));
   for (auto _ : state) {
     if (!encoder.begin(ring.next())) state.SkipWithError("not encodable");
@@ -192,8 +193,8 @@ void scan(benchmark::State& state, std::vector<std::string> datagrams) {
   }
 }
 
-void print(benchmark::State& state, std::uint32_t format) {
-  Ring<CameraParams> ring(shot(format));
+void print(benchmark::State& state, const std::vector<CameraParams>& records) {
+  Ring<CameraParams> ring(records);
   char text[wire::max_datagram];
   for (auto _ : state) {
     benchmark::DoNotOptimize(field_print(ring.next(), text));
@@ -223,14 +224,17 @@ void add(const std::string& name, std::uint32_t format) {
     run(what + "/ours", decode, texts, true);
     run(what + "/peer", scan, texts);
   }
-  run("BM_print_" + name + "/ours", encode, format, Encoding::ascii);
-  run("BM_print_" + name + "/peer", print, format);
+  for (const bool zooms : {true, false}) {
+    const std::string what = "BM_print_" + name + (zooms ? "" : "_without_zoom");
+    run(what + "/ours", encode, shot(format, zooms), Encoding::ascii);
+    run(what + "/peer", print, shot(format, zooms));
+  }
   for (const bool with_constants : {true, false}) {
     const std::string what = "BM_decode_" + name + (with_constants ? "" : "_without_constants");
     run(what + "/ours", decode, datagrams(format, Encoding::binary), with_constants);
     run(what + "/peer", copy_twice);
   }
-  run("BM_encode_" + name + "/ours", encode, format, Encoding::binary);
+  run("BM_encode_" + name + "/ours", encode, shot(format), Encoding::binary);
   run("BM_encode_" + name + "/peer", copy_twice);
 }
 

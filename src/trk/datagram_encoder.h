@@ -16,18 +16,16 @@ class DatagramEncoder final : public transport::Encoder {
   explicit DatagramEncoder(const wire::WireForm& form) : form_(form) {}
 
   tl::expected<void, transport::Fault> begin(const wire::CameraParams& params) noexcept override {
-    return encode(params);
+    return keep(wire::encode(params, form_, buffer_, memory_));
   }
   tl::expected<void, transport::Fault> begin(const wire::CameraConstants& constants) noexcept override {
-    return encode(constants);
+    return keep(wire::encode(constants, form_, buffer_));
   }
   std::optional<std::string_view> next() noexcept override { return std::exchange(datagram_, std::nullopt); }
 
  private:
-  template <typename Record>
-  tl::expected<void, transport::Fault> encode(const Record& record) noexcept {
+  tl::expected<void, transport::Fault> keep(const tl::expected<std::string_view, wire::Fault>& encoded) noexcept {
     datagram_.reset();
-    const auto encoded = wire::encode(record, form_, buffer_);
     if (!encoded) return tl::make_unexpected(transport::Fault(encoded.error()));
     datagram_ = *encoded;
     return {};
@@ -35,6 +33,7 @@ class DatagramEncoder final : public transport::Encoder {
 
   wire::WireForm form_;
   wire::Buffer buffer_{};
+  wire::TextMemory memory_;
   std::optional<std::string_view> datagram_;
 };
 

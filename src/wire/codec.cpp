@@ -24,11 +24,12 @@ bool is_blank(std::string_view text) noexcept {
   return std::all_of(text.begin(), text.end(), [](char c) { return c == '\0' || is_space(c); });
 }
 
-template <class T>
-tl::expected<std::string_view, Fault> encode_record(const T& record, WireForm form, Buffer& buffer) noexcept {
+template <class T, class... Memory>
+tl::expected<std::string_view, Fault> encode_record(const T& record, WireForm form, Buffer& buffer,
+                                                    Memory&... memory) noexcept {
   const bool ascii = form.encoding == Encoding::ascii;
   char* const payload = buffer.data() + header_size;
-  const auto size = ascii ? write_text(record, payload) : write_image(record, form.layout, payload);
+  const auto size = ascii ? write_text(record, payload, memory...) : write_image(record, form.layout, payload);
   if (!size) return tl::unexpected(size.error());
   std::copy(magic.begin(), magic.end(), buffer.begin());
   buffer[type_at] = type_of(record);
@@ -97,6 +98,11 @@ tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutDetector& d
 
 tl::expected<std::string_view, Fault> encode(const CameraParams& params, WireForm form, Buffer& buffer) noexcept {
   return encode_record(params, form, buffer);
+}
+
+tl::expected<std::string_view, Fault> encode(const CameraParams& params, WireForm form, Buffer& buffer,
+                                             TextMemory& memory) noexcept {
+  return encode_record(params, form, buffer, memory);
 }
 
 tl::expected<std::string_view, Fault> encode(const CameraConstants& constants, WireForm form, Buffer& buffer) noexcept {

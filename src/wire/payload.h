@@ -23,6 +23,7 @@ inline constexpr std::size_t payload_room = max_datagram - header_size;
 
 /// Write up to `payload_room` bytes and return how many.
 [[nodiscard]] tl::expected<std::size_t, Fault> write_text(const CameraParams&, char* to) noexcept;
+[[nodiscard]] tl::expected<std::size_t, Fault> write_text(const CameraParams&, char* to, TextMemory&) noexcept;
 [[nodiscard]] tl::expected<std::size_t, Fault> write_text(const CameraConstants&, char* to) noexcept;
 [[nodiscard]] tl::expected<std::size_t, Fault> write_image(const CameraParams&, const Layout&, char* to) noexcept;
 [[nodiscard]] tl::expected<std::size_t, Fault> write_image(const CameraConstants&, const Layout&, char* to) noexcept;

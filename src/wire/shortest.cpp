@@ -57,11 +57,13 @@ struct Digits {
   std::uint64_t next_eight, last_eight;
 
   Digits(std::uint64_t number, int count) noexcept {
-    constexpr std::uint64_t block = 100'000'000;
+    constexpr std::uint32_t block = 100'000'000;
     number *= powers[static_cast<std::size_t>(most_digits - count)];
-    first = static_cast<char>('0' + number / (block * block));
-    next_eight = eight_digits(static_cast<std::uint32_t>(number / block % block));
-    last_eight = eight_digits(static_cast<std::uint32_t>(number % block));
+    const auto upper = static_cast<std::uint32_t>(number / block);
+    const auto lower = static_cast<std::uint32_t>(number - std::uint64_t{upper} * block);
+    first = static_cast<char>('0' + upper / block);
+    next_eight = eight_digits(upper % block);
+    last_eight = eight_digits(lower);
   }
 
   void put(char* to) const noexcept {

@@ -1,5 +1,6 @@
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 
 #include "number.h"
@@ -83,10 +84,22 @@ class Reader {
   FirstFault fault_;
 };
 
+void read_matrix(Reader& reader, std::array<double, 16>& matrix) noexcept {
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    if (i % 4 < text_rows) {
+      reader.number(matrix_place(i), matrix[i]);
+    } else {
+      matrix[i] = i == 15 ? 1 : 0;
+    }
+  }
+}
+
+}  // namespace
+
 /// Puts the fields of a record one after another, one space between, until one cannot be written.
-class Writer {
+class TextWriter {
  public:
-  explicit Writer(char* to) noexcept : begin_(to), at_(to) {}
+  explicit TextWriter(char* to, TextMemory* memory = nullptr) noexcept : begin_(to), at_(to), memory_(memory) {}
 
   void id(std::uint32_t value) noexcept {
     if (value == 0) return;
@@ -102,16 +115,31 @@ class Writer {
     }
   }
 
-  template <class T>
-  void number(std::size_t place, T value) noexcept {
-    if constexpr (std::is_floating_point_v<T>) {
-      if (!std::isfinite(value)) return fault_.note(about_field(Reason::not_finite, place));
-      separate();
+  void number(std::size_t place, double value) noexcept {
+    if (!std::isfinite(value)) return fault_.note(about_field(Reason::not_finite, place));
+    separate();
+    if (memory_ == nullptr) {
       at_ = write_shortest(value, at_);
-    } else {
-      separate();
-      at_ = std::to_chars(at_, limit(), value).ptr;
+      return;
     }
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    TextMemory::Number& last = memory_->numbers_[place - transform_place];
+    if (last.bits != bits || last.length == 0) {
+      char* const end = write_shortest(value, at_);
+      last.bits = bits;
+      last.length = static_cast<std::uint8_t>(end - at_);
+      std::memcpy(last.text.data(), at_, last.text.size());
+    } else {
+      std::memcpy(at_, last.text.data(), last.text.size());
+    }
+    at_ += last.length;
+  }
+
+  template <class Integer>
+  void number(std::size_t, Integer value) noexcept {
+    separate();
+    at_ = std::to_chars(at_, limit(), value).ptr;
   }
 
   /// A visitor of consecutive fields, the first of which has this place.
@@ -132,20 +160,9 @@ class Writer {
 
   char* const begin_;
   char* at_;
+  TextMemory* const memory_;
   FirstFault fault_;
 };
-
-void read_matrix(Reader& reader, std::array<double, 16>& matrix) noexcept {
-  for (std::size_t i = 0; i < matrix.size(); ++i) {
-    if (i % 4 < text_rows) {
-      reader.number(matrix_place(i), matrix[i]);
-    } else {
-      matrix[i] = i == 15 ? 1 : 0;
-    }
-  }
-}
-
-}  // namespace
 
 bool read_text(std::string_view text, CameraParams& into, Fault& fault) noexcept {
   Reader reader(text);
@@ -172,8 +189,9 @@ bool read_text(std::string_view text, CameraConstants& into, Fault& fault) noexc
   return reader.finish(fault);
 }
 
-tl::expected<std::size_t, Fault> write_text(const CameraParams& p, char* to) noexcept {
-  Writer writer(to);
+namespace {
+
+tl::expected<std::size_t, Fault> write_params(const CameraParams& p, TextWriter&& writer) noexcept {
   writer.id(p.id);
   writer.format(p.format);
   if (has(p.format, euler)) {
@@ -188,8 +206,18 @@ tl::expected<std::size_t, Fault> write_text(const CameraParams& p, char* to) noe
   return writer.finish();
 }
 
+}  // namespace
+
+tl::expected<std::size_t, Fault> write_text(const CameraParams& p, char* to) noexcept {
+  return write_params(p, TextWriter(to));
+}
+
+tl::expected<std::size_t, Fault> write_text(const CameraParams& p, char* to, TextMemory& memory) noexcept {
+  return write_params(p, TextWriter(to, &memory));
+}
+
 tl::expected<std::size_t, Fault> write_text(const CameraConstants& c, char* to) noexcept {
-  Writer writer(to);
+  TextWriter writer(to);
   writer.id(c.id);
   for_each_image_field(writer.numbers_from(image_place), c);
   for_each_chip_field(writer.numbers_from(chip_place), c);
