@@ -34,6 +34,7 @@ using transport::Wake;
 constexpr double highest_rate = 1e6;
 constexpr long double century = 3.2e18L;  // ns
 constexpr nanoseconds one_day = std::chrono::hours(24);
+constexpr const char* nothing_to_loop = "loop=1: it has no parameters to play";
 
 /// Midnight UTC of the day, nanoseconds since 1970.
 std::int64_t midnight(const SourceSettings& settings) {
@@ -49,42 +50,31 @@ std::string fault_of(const base::TimeCode& code, double rate, FileTime time) {
   return first ? std::string() : first.error() + "; say rate=HZ, or time=now to play without it";
 }
 
-/// Plays a take at its field rate. The schedule is absolute from the first call on, or from when a FIFO's writer began:
-/// a late reader catches up. A regular file has been read as a whole when it was opened, a FIFO is read as it is
-/// played. Lines that were left out are reported first, those of a FIFO when they come.
+/// Plays a take at its field rate, line by line as it is read. The schedule is absolute from the first call on, or from
+/// when a FIFO's writer began: a late reader catches up. A field is read before its time, so that a slow disk does not
+/// delay it. Lines that were left out are reported when they are reached, and of a loop in the first round only.
 class FileSource final : public transport::CountedSource {
  public:
-  FileSource(const SourceSettings& settings, double rate, Take take, std::unique_ptr<TakeReader> fifo)
+  /// Of a regular file the reader has read the head.
+  FileSource(const SourceSettings& settings, double rate, std::unique_ptr<TakeReader> take)
       : CountedSource("file " + settings.path),
         take_(std::move(take)),
-        fifo_(std::move(fifo)),
         rate_(rate),
         speed_(settings.speed),
         loop_(settings.loop),
         time_(settings.time),
         midnight_(midnight(settings)),
-        constants_due_(!fifo_) {}
+        constants_due_(!take_->is_fifo()) {}
 
   Event receive(Reception& into, nanoseconds wait) override {
     if (const Event end = final_event(); end != Event::sample) return end;
-    if (reported_ < take_.left_out.size()) return left_out(take_.left_out[reported_++].fault, into);
-    auto now = Clock::now();
-    if (fifo_ && !constants_due_ && !next_) {
-      if (const Event event = fetch(into, wait); event != Event::sample) return event;
-      const auto fetched = Clock::now();
-      if (wait > nanoseconds::zero()) wait = std::max(nanoseconds::zero(), wait - (fetched - now));
-      now = fetched;
+    const Deadline deadline(wait);
+    if (!constants_due_ && !has_next_) {
+      if (const Event event = fetch(into, deadline); event != Event::sample) return event;
     }
-    if (!begin_) begin_ = now;
-    if (!fifo_ && position_ == take_.params.size() && !constants_due_) {
-      if (!loop_) return ended();
-      position_ = 0;
-      round_begin_ = played_;
-      gaps_passed_ = 0;
-      constants_due_ = true;
+    if (speed_ != 0) {
+      if (const Event event = wait_until_due(deadline); event != Event::sample) return event;
     }
-    if (!constants_due_) pass_gaps();
-    if (const Event event = wait_until(due(), wait, now); event != Event::sample) return event;
     hand_out(into.sample);
     return sample(into.sample);
   }
@@ -92,20 +82,21 @@ class FileSource final : public transport::CountedSource {
  private:
   /// When the next record is to be handed out. Constants come with the first field of a round.
   Clock::time_point due() const {
-    if (speed_ == 0) return *begin_;
     // Up, so that nothing is ever early; a century is as good as never, and within what the clock can represent.
     const long double ahead =
         std::ceil(static_cast<long double>(played_) * 1e9L / static_cast<long double>(rate_ * speed_));
     return *begin_ + nanoseconds(static_cast<std::int64_t>(std::min(ahead, century)));
   }
 
-  /// `sample` once `due` has come, `idle` when `wait` is over before.
-  Event wait_until(Clock::time_point due, nanoseconds wait, Clock::time_point now) {
-    // As a difference, for `now + wait` may be past what the clock can represent.
-    const bool in_time = wait < nanoseconds::zero() || due - now <= wait;
-    const auto until = in_time ? due : now + wait;
-    for (auto time = Clock::now(); time < until; time = Clock::now()) {
-      switch (wait_readable(no_descriptor, stop_event(), Deadline(until - time))) {
+  /// `sample` once the next record is due, `idle` when the deadline comes before.
+  Event wait_until_due(const Deadline& deadline) {
+    auto now = Clock::now();
+    if (!begin_) begin_ = now;
+    for (const auto until = due(); now < until; now = Clock::now()) {
+      if (deadline.has_passed()) return Event::idle;
+      const nanoseconds left = until - now;
+      const Deadline first(deadline.is_endless() ? left : std::min(left, deadline.left()));
+      switch (wait_readable(no_descriptor, stop_event(), first)) {
         case Wake::stopped:
           return Event::stopped;
         case Wake::failed:
@@ -115,59 +106,68 @@ class FileSource final : public transport::CountedSource {
           break;
       }
     }
-    return in_time ? Event::sample : Event::idle;
+    return Event::sample;
   }
 
-  /// A line that was left out was a field as well: the others keep their times.
-  void pass_gaps() {
-    const auto& gaps = take_.left_out;
-    for (; gaps_passed_ < gaps.size() && gaps[gaps_passed_].position == position_; ++gaps_passed_) ++played_;
-  }
-
-  /// The next record of a FIFO: `sample` once there is one to be handed out.
-  Event fetch(Reception& into, nanoseconds wait) {
-    const Deadline deadline(wait);
+  /// The next record of the take: `sample` once there is one to be handed out.
+  Event fetch(Reception& into, const Deadline& deadline) {
     for (;;) {
-      switch (fifo_->next()) {
+      switch (take_->next()) {
         case TakeReader::Got::head:
-          take_.time_code = fifo_->time_code();
-          take_.constants = fifo_->constants();
-          if (const auto unfit = fault_of(take_.time_code, rate_, time_); !unfit.empty()) return failed_with(unfit);
-          begin_.reset();
+          if (const auto unfit = fault_of(take_->time_code(), rate_, time_); !unfit.empty()) return failed_with(unfit);
           constants_due_ = true;
           return Event::sample;
         case TakeReader::Got::params:
-          next_ = fifo_->params();
+          has_next_ = has_field_ = true;
           return Event::sample;
         case TakeReader::Got::left_out:
+          // It was a field as well: the others keep their times.
           ++played_;
-          return left_out(fifo_->fault(), into);
+          if (!is_first_round_) break;
+          return left_out(into);
         case TakeReader::Got::cut:
-          return left_out(fifo_->fault(), into);
+          if (!is_first_round_) break;
+          return left_out(into);
         case TakeReader::Got::end:
-          return ended();
+          if (!loop_) return ended();
+          return next_round();
         case TakeReader::Got::failed:
-          return failed_with(fifo_->error());
+          return failed_with(take_->error());
         case TakeReader::Got::nothing_yet:
-          break;
-      }
-      switch (wait_readable(fifo_->fd(), stop_event(), deadline)) {
-        case Wake::stopped:
-          return Event::stopped;
-        case Wake::failed:
-          return failed(errno);
-        case Wake::timeout:
-          return Event::idle;
-        case Wake::readable:
+          if (const Event event = await_writer(deadline); event != Event::sample) return event;
           break;
       }
     }
   }
 
-  Event left_out(const transport::Fault& fault, Reception& into) {
+  Event await_writer(const Deadline& deadline) {
+    switch (wait_readable(take_->fd(), stop_event(), deadline)) {
+      case Wake::stopped:
+        return Event::stopped;
+      case Wake::failed:
+        return failed(errno);
+      case Wake::timeout:
+        return Event::idle;
+      case Wake::readable:
+        break;
+    }
+    return Event::sample;
+  }
+
+  Event next_round() {
+    // Its writer may have emptied it since: it would be read over and over.
+    if (!has_field_) return failed_with(take_->path() + ": " + nothing_to_loop);
+    if (!take_->rewind()) return failed_with(take_->error());
+    has_field_ = is_first_round_ = false;
+    round_begin_ = played_;
+    constants_due_ = true;
+    return Event::sample;
+  }
+
+  Event left_out(Reception& into) {
     set_source(into.sample);
     into.sample.arrival = base::wall_now();
-    into.fault = fault;
+    into.fault = take_->fault();
     return malformed();
   }
 
@@ -186,30 +186,27 @@ class FileSource final : public transport::CountedSource {
     set_source(sample);
     sample.arrival = arrival();
     if (constants_due_) {
-      sample.record = take_.constants;
+      sample.record = take_->constants();
       constants_due_ = false;
       return;
     }
-    if (fifo_) {
-      sample.record = *next_;
-      next_.reset();
-    } else {
-      sample.record = take_.params[position_++];
-    }
+    sample.record = take_->params();
     sample.time_code = time_code();
+    has_next_ = false;
     ++played_;
   }
 
   /// Of the field that comes next; none where the take's code does not fit the rate.
   std::optional<base::CountedTimeCode> time_code() const {
-    const auto code = base::time_code_after(take_.time_code, rate_, played_ - round_begin_);
+    const auto code = base::time_code_after(take_->time_code(), rate_, played_ - round_begin_);
     if (!code) return std::nullopt;
     return base::CountedTimeCode{*code, rate_};
   }
 
   void complete(SourceStatistics& statistics) const override {
     if (statistics.state == SourceState::waiting) {
-      statistics.waiting_for = name() + (fifo_ ? ": a FIFO, nothing written yet" : ": read, nothing played yet");
+      statistics.waiting_for =
+          name() + (take_->is_fifo() ? ": a FIFO, nothing written yet" : ": open, nothing played yet");
     }
     // Written before the state, and not again.
     if (statistics.state == SourceState::failed && !failure_.empty()) statistics.error = failure_;
@@ -218,11 +215,10 @@ class FileSource final : public transport::CountedSource {
   std::int64_t arrival() const {
     if (time_ == FileTime::now) return base::wall_now();
     // Whether the code fits the rate does not depend on the index, and was seen before.
-    return midnight_ + *base::nanoseconds_of(take_.time_code, rate_, played_);
+    return midnight_ + *base::nanoseconds_of(take_->time_code(), rate_, played_);
   }
 
-  Take take_;  // of a FIFO the head
-  const std::unique_ptr<TakeReader> fifo_;
+  const std::unique_ptr<TakeReader> take_;
   const double rate_;
   const double speed_;
   const bool loop_;
@@ -232,12 +228,29 @@ class FileSource final : public transport::CountedSource {
 
   std::optional<Clock::time_point> begin_;
   bool constants_due_;
-  std::optional<wire::CameraParams> next_;  // of a FIFO
-  std::size_t position_ = 0;
-  std::size_t reported_ = 0, gaps_passed_ = 0;  // of the lines left out
-  std::uint64_t played_ = 0;                    // fields, over all rounds
-  std::uint64_t round_begin_ = 0;               // played_ when this round began
+  bool has_next_ = false;   // take_->params() is to be handed out
+  bool has_field_ = false;  // this round
+  bool is_first_round_ = true;
+  std::uint64_t played_ = 0;       // fields, over all rounds
+  std::uint64_t round_begin_ = 0;  // played_ when this round began
 };
+
+/// Whether there is a field to play, however far behind lines that are left out. Throws TransportError.
+bool has_field(const std::string& path, Unsound unsound) {
+  TakeReader take(path, unsound, Waiting::never);
+  for (;;) {
+    switch (take.next()) {
+      case TakeReader::Got::params:
+        return true;
+      case TakeReader::Got::end:
+        return false;
+      case TakeReader::Got::failed:
+        throw TransportError(take.error());
+      default:
+        break;
+    }
+  }
+}
 
 }  // namespace
 
@@ -257,16 +270,16 @@ std::unique_ptr<Source> open_source(const SourceSettings& settings, double field
     refuse("date: " + std::to_string(*settings.date) +
            " seconds since 1970 are after 2249-12-31, the last day allowed");
   }
-  auto reader = std::make_unique<TakeReader>(settings.path, settings.lenient ? Unsound::is_left_out : Unsound::is_error,
-                                             Waiting::never);
-  if (reader->is_fifo()) {
+  const Unsound unsound = settings.lenient ? Unsound::is_left_out : Unsound::is_error;
+  auto take = std::make_unique<TakeReader>(settings.path, unsound, Waiting::never);
+  if (take->is_fifo()) {
     if (settings.loop) refuse("loop=1: a FIFO can be played once");
-    return std::make_unique<FileSource>(settings, rate, Take{}, std::move(reader));
+    return std::make_unique<FileSource>(settings, rate, std::move(take));
   }
-  Take take = read_take(*reader);
-  if (const auto unfit = fault_of(take.time_code, rate, settings.time); !unfit.empty()) refuse(unfit);
-  if (settings.loop && take.params.empty()) refuse("loop=1: it has no parameters to play");
-  return std::make_unique<FileSource>(settings, rate, std::move(take), nullptr);
+  if (take->next() != TakeReader::Got::head) throw TransportError(take->error());
+  if (const auto unfit = fault_of(take->time_code(), rate, settings.time); !unfit.empty()) refuse(unfit);
+  if (settings.loop && !has_field(settings.path, unsound)) refuse(nothing_to_loop);
+  return std::make_unique<FileSource>(settings, rate, std::move(take));
 }
 
 }  // namespace trk_bridge::file

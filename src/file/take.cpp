@@ -16,13 +16,14 @@
 namespace trk_bridge::file {
 namespace {
 
-constexpr std::string_view white_space = " \t\r\v\f";
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
+bool is_white(char c) { return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n'); }
+
 std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(white_space);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
+  while (!text.empty() && is_white(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_white(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 // Codes of faults that text has beside those of wire::Reason.
@@ -80,6 +81,26 @@ TakeReader::TakeReader(std::string path, Unsound unsound, Waiting waiting)
   if (file_.get() < 0 || ::fstat(file_.get(), &state) != 0) refuse(system_text(errno));
   if (const std::string reason = refusal_of_kind(state.st_mode); !reason.empty()) refuse(reason);
   is_fifo_ = S_ISFIFO(state.st_mode);
+  if (!is_fifo_) size_ = static_cast<std::uint64_t>(state.st_size);
+}
+
+double TakeReader::progress() const noexcept {
+  if (size_ == 0) return 0;
+  return std::min(1.0, static_cast<double>(read_) / static_cast<double>(size_));
+}
+
+bool TakeReader::rewind() {
+  if (::lseek(file_.get(), static_cast<off_t>(first_field_.offset), SEEK_SET) < 0) {
+    error_ = refusal(path_, system_text(errno));
+    stage_ = Stage::failed;
+    return false;
+  }
+  begin_ = end_ = 0;
+  read_ = first_field_.offset;
+  number_ = first_field_.line;
+  at_end_ = skips_ = has_params_ = false;
+  stage_ = Stage::params;
+  return true;
 }
 
 TakeReader::Line TakeReader::fill() {
@@ -100,6 +121,7 @@ TakeReader::Line TakeReader::fill() {
     if (got < 0) return Line::failed;
     if (got == 0) at_end_ = true;
     end_ += static_cast<std::size_t>(got);
+    read_ += static_cast<std::uint64_t>(got);
     return Line::whole;
   }
 }
@@ -107,7 +129,8 @@ TakeReader::Line TakeReader::fill() {
 TakeReader::Line TakeReader::next_line(std::string_view& line) {
   for (;;) {
     const std::string_view read(buffer_.data() + begin_, end_ - begin_);
-    const std::size_t length = read.find('\n');
+    const std::string_view searched = skips_ ? read : read.substr(0, wire::max_datagram);
+    const std::size_t length = searched.find('\n');
     if (length != std::string_view::npos) {
       begin_ += length + 1;
       if (std::exchange(skips_, false)) continue;
@@ -116,7 +139,7 @@ TakeReader::Line TakeReader::next_line(std::string_view& line) {
       return Line::whole;
     }
     if (skips_) begin_ = end_;
-    if (!skips_ && read.size() == buffer_.size()) {
+    if (!skips_ && searched.size() == wire::max_datagram) {
       ++number_;
       skips_ = true;
       return Line::too_long;
@@ -182,6 +205,7 @@ TakeReader::Got TakeReader::take_head(std::string_view content) {
   if (!constants) return fail("constants: " + wire::describe(constants.error()));
   constants_ = *constants;
   stage_ = Stage::params;
+  first_field_ = {read_ - (end_ - begin_), number_};
   return Got::head;
 }
 

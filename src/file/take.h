@@ -22,8 +22,9 @@ enum class Unsound : std::uint8_t { is_error, is_left_out };
 /// Whether a reader of a FIFO waits for its writer.
 enum class Waiting : std::uint8_t { blocks, never };
 
-/// Reads a take line by line as it is asked for, in memory of a fixed size: no line is read further than 4096 bytes.
-/// Lines may end in LF or CRLF, and a byte order mark of UTF-8 may stand in front. One thread at a time.
+/// Reads a take line by line as it is asked for, in memory of a fixed size, whatever its length and that of its lines:
+/// a line of 4096 bytes or more is not sound. What is wrong with a line is known when next() comes to it. Lines may end
+/// in LF or CRLF, and a byte order mark of UTF-8 may stand in front. One thread at a time.
 ///
 /// A last line without its end is *cut* when it is not sound, or when its counter, of which digits may be missing, is
 /// below the one before: what a recorder leaves that died while writing. It is left out, and no error.
@@ -45,6 +46,9 @@ class TakeReader {
   TakeReader(std::string path, Unsound unsound, Waiting waiting);
 
   [[nodiscard]] Got next();
+  /// Goes back to the first field of a regular file, once next() has said `head`; no further `head` comes. False when
+  /// the system refuses: error().
+  [[nodiscard]] bool rewind();
 
   const base::TimeCode& time_code() const noexcept { return time_code_; }
   const wire::CameraConstants& constants() const noexcept { return constants_; }
@@ -57,10 +61,18 @@ class TakeReader {
   const std::string& path() const noexcept { return path_; }
   int fd() const noexcept { return file_.get(); }
   bool is_fifo() const noexcept { return is_fifo_; }
+  /// How much of the file has been read, 0 to 1; of a FIFO 0.
+  double progress() const noexcept;
 
  private:
   enum class Stage : std::uint8_t { magic, time_code, constants, params, ended, failed };
   enum class Line : std::uint8_t { whole, last, too_long, end, nothing_yet, failed };
+
+  /// Where a file is read on, and what the next line's number is less one.
+  struct Place {
+    std::uint64_t offset = 0;
+    std::uint32_t line = 0;
+  };
 
   Line next_line(std::string_view& line);
   Line fill();
@@ -75,12 +87,16 @@ class TakeReader {
   const Waiting waiting_;
   transport::Descriptor file_;
   bool is_fifo_ = false;
-  std::array<char, wire::max_datagram> buffer_{};
+  std::uint64_t size_ = 0;  // of a regular file when it was opened
+  // A block of a disk holds many lines. One that is too long is seen before the next block is read.
+  std::array<char, 2 * wire::max_datagram> buffer_{};
   std::size_t begin_ = 0, end_ = 0;  // of what is read and not handed out
+  std::uint64_t read_ = 0;           // of the file, up to end_
   bool at_end_ = false;              // of the file
   bool skips_ = false;               // the rest of a line that is too long
   std::uint32_t number_ = 0;         // of the line
   Stage stage_ = Stage::magic;
+  Place first_field_;
 
   base::TimeCode time_code_;
   wire::CameraConstants constants_;

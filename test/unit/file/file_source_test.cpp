@@ -15,6 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "bytes_read.h"
 #include "error_of.h"
 #include "file/scheme.h"
 #include "temporary_directory.h"
@@ -258,6 +259,7 @@ TEST_F(PlayFile, ALineThatIsCutIsReportedOnceAndTheRestIsPlayed) {
   settings.loop = true;
   const auto source = open_source(settings, 50.0);
   Reception r;
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(source->receive(r, 0ns), Event::sample);
   ASSERT_EQ(source->receive(r, 0ns), Event::malformed);
   EXPECT_THAT(describe(r.fault), HasSubstr("line 6 is cut: field 6 is missing"));
   EXPECT_EQ(r.sample.sender.kind, SenderKind::file);
@@ -271,22 +273,72 @@ TEST_F(PlayFile, LenientLeavesOutALineAloneAndTheOthersKeepTheirTimes) {
   test::write_text(path, test::read_text(path) + "oops\n1 1 2 3 4 5 6 50 0 0 0 0 5 8 3\n");
   settings.speed = 0;
   settings.date = 0;
-  EXPECT_THAT(test::error_of<TransportError>([&] { static_cast<void>(open_source(settings, 50.0)); }),
-              HasSubstr(path + ":5: "));
   settings.lenient = true;
+  settings.loop = true;
   const auto source = open_source(settings, 50.0);
   Reception r;
-  ASSERT_EQ(source->receive(r, 0ns), Event::malformed);
-  EXPECT_THAT(describe(r.fault), HasSubstr("line 5: "));
-  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
-  EXPECT_TRUE(is_constants(r));
-  for (const int i : {1, 3}) {
+  for (int round = 0; round < 2; ++round) {
     ASSERT_EQ(source->receive(r, 0ns), Event::sample);
-    EXPECT_EQ(counter(r), static_cast<std::uint64_t>(i));
-    EXPECT_EQ(r.sample.arrival, of_day + (i - 1) * field);
-    EXPECT_EQ(time_code(r), i == 1 ? "10:20:30:12:1" : "10:20:30:13:1");
+    EXPECT_TRUE(is_constants(r));
+    for (const int i : {1, 3}) {
+      ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+      EXPECT_EQ(counter(r), static_cast<std::uint64_t>(i));
+      EXPECT_EQ(r.sample.arrival, of_day + (3 * round + i - 1) * field);
+      EXPECT_EQ(time_code(r), i == 1 ? "10:20:30:12:1" : "10:20:30:13:1");
+      if (round > 0 || i == 3) continue;
+      ASSERT_EQ(source->receive(r, 0ns), Event::malformed) << "reported in the first round";
+      EXPECT_THAT(describe(r.fault), HasSubstr("line 5: "));
+    }
   }
-  EXPECT_EQ(source->receive(r, 0ns), Event::ended);
+  EXPECT_EQ(source->statistics().malformed, 1U);
+}
+
+TEST_F(PlayFile, ALineThatIsNotSoundEndsItThereAndIsNamed) {
+  auto settings = take_of(5000);
+  test::write_text(path, test::read_text(path) + "oops\n1 1 2 3 4 5 6 50 0 0 0 0 5 8 5001\n");
+  settings.speed = 0;
+  const auto source = open_source(settings, 50.0);
+  Reception r;
+  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  for (std::uint64_t i = 1; i <= 5000; ++i) {
+    ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+    ASSERT_EQ(counter(r), i);
+  }
+  EXPECT_EQ(source->receive(r, 0ns), Event::failed);
+  EXPECT_EQ(source->receive(r, 0ns), Event::failed);
+  EXPECT_EQ(source->statistics().state, SourceState::failed);
+  EXPECT_THAT(source->statistics().error, testing::StartsWith(path + ":5004: "));
+}
+
+TEST_F(PlayFile, ItBeginsBeforeTheTakeIsRead) {
+  auto settings = take_of(50'000);
+  settings.speed = 0;
+  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
+  const std::int64_t before = test::bytes_read();
+  const auto source = open_source(settings, 50.0);
+  Reception r;
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+  const std::int64_t read = test::bytes_read() - before;
+  EXPECT_LT(read, 64 * 1024);
+  EXPECT_GT(size, 20 * 64 * 1024);
+}
+
+TEST_F(PlayFile, ALoopOverATakeThatWasEmptiedEnds) {
+  for (const bool lenient : {false, true}) {
+    auto settings = take_of(2);
+    const std::string head = test::read_text(path).substr(0, test::read_text(path).find("\n1 ") + 1);
+    settings.speed = 0;
+    settings.loop = true;
+    settings.lenient = lenient;
+    const auto source = open_source(settings, 50.0);
+    Reception r;
+    for (int i = 0; i < 3; ++i) ASSERT_EQ(source->receive(r, 0ns), Event::sample);
+    test::write_text(path, head + (lenient ? "oops\n" : ""));
+    Event event = Event::sample;
+    for (int i = 0; i < 3 && event == Event::sample; ++i) event = source->receive(r, 0ns);
+    EXPECT_EQ(event, Event::failed);
+    EXPECT_EQ(source->statistics().error, path + ": loop=1: it has no parameters to play");
+  }
 }
 
 class PlayFifo : public PlayFile {

@@ -1,0 +1,22 @@
+// What this process has read with system calls.
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace trk_bridge::test {
+
+/// Bytes of all files and pipes, those of asking included.
+inline std::int64_t bytes_read() {
+  std::ifstream io("/proc/self/io");
+  std::string key;
+  std::int64_t value = 0;
+  while (io >> key >> value) {
+    if (key == "rchar:") return value;
+  }
+  throw std::runtime_error("/proc/self/io has no rchar");
+}
+
+}  // namespace trk_bridge::test
