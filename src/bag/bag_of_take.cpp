@@ -1,11 +1,7 @@
-#include <cerrno>
-#include <map>
-#include <memory>
+#include <optional>
 #include <ostream>
 #include <system_error>
 
-#include <ros/message_traits.h>
-#include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "base/time_text.h"
@@ -21,6 +17,7 @@
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/ros/messages.h"
 #include "trk_bridge/transport/source.h"
+#include "writer.h"
 
 namespace trk_bridge::bag {
 namespace {
@@ -29,15 +26,11 @@ namespace {
   throw BagError(std::string(option) + " = " + value + ": " + why);
 }
 
-const std::string& name_of(const TakeToBagOptions& options) {
+/// As trk_to_ros names and checks them.
+ros1::CameraFrames frames_of(const TakeToBagOptions& options) {
   if (const auto sound = ros1::check_camera_name(options.camera); !sound) {
     refuse("--camera", ros1::shown(options.camera), sound.error());
   }
-  return options.camera;
-}
-
-/// As trk_to_ros names and checks them.
-ros1::CameraFrames frames_of(const TakeToBagOptions& options) {
   const auto frame = [](const char* option, const std::string& value) {
     const auto sound = ros1::parse_frame(value);
     if (!sound) refuse(option, ros1::shown(value), sound.error());
@@ -68,11 +61,10 @@ bridge::CameraPipeline pipeline_of(const TakeToBagOptions& options) {
 class TakeCamera {
  public:
   explicit TakeCamera(const TakeToBagOptions& options)
-      : name_(name_of(options)), frames_(frames_of(options)), pipeline_(pipeline_of(options)), messages_(frames_) {
+      : frames_(frames_of(options)), pipeline_(pipeline_of(options)), messages_(frames_) {
     sample_.sender.kind = transport::SenderKind::file;
   }
 
-  std::string topic(const char* last) const { return topic_of(name_, last); }
   geometry_msgs::TransformStamped optical_transform(std::int64_t stamp) const {
     return ros1::optical_transform(frames_, ros1::to_time(stamp));
   }
@@ -91,7 +83,6 @@ class TakeCamera {
   const bridge::CameraStatistics& statistics() const noexcept { return pipeline_.statistics(); }
 
  private:
-  const std::string name_;  // checked first: the others are named after it
   const ros1::CameraFrames frames_;
   transport::Sample sample_;
   bridge::CameraPipeline pipeline_;
@@ -127,74 +118,52 @@ class Schedule {
   std::optional<std::int64_t> zero_;
 };
 
-/// Writes messages as a recorder would have got them from trk_to_ros. Connection headers are made here, because a
-/// recorder meets publishers in a random order.
+/// The topics of a camera as a recorder would have got them from trk_to_ros. Connection headers are made here, because
+/// a recorder meets publishers in a random order.
 class Recording {
  public:
-  Recording(const std::string& path, const TakeToBagOptions& options, std::optional<std::int64_t> zero)
-      : Recording("/" + options.camera + "/trk_to_ros") {
-    extra_[field_rate_key] = cli::number_text(options.field_rate);
-    if (zero) extra_[time_code_zero_key] = std::to_string(*zero);
-    with_reason([&] { bag_->open(path, rosbag::bagmode::Write); });
-    bag_->setCompression(options.compression == "bz2"   ? rosbag::compression::BZ2
-                         : options.compression == "lz4" ? rosbag::compression::LZ4
-                                                        : rosbag::compression::Uncompressed);
-  }
-  /// A bag whose end cannot be written would throw in its destructor: that one stays in memory.
-  ~Recording() {
-    try {
-      bag_->close();
-    } catch (const rosbag::BagException&) {
-      static_cast<void>(bag_.release());
-    }
-  }
-  Recording(const Recording&) = delete;
-  Recording& operator=(const Recording&) = delete;
-
-  template <typename Message>
-  void write(const std::string& topic, ::ros::Time stamp, const Message& message, bool is_latched = false) {
-    auto& header = headers_[topic];
-    if (!header) {
-      header = boost::make_shared<::ros::M_string>(extra_);
-      (*header)["callerid"] = caller_;
-      (*header)["latching"] = is_latched ? "1" : "0";
-      (*header)["md5sum"] = ::ros::message_traits::md5sum(message);
-      (*header)["message_definition"] = ::ros::message_traits::definition(message);
-      (*header)["topic"] = topic;
-      (*header)["type"] = ::ros::message_traits::datatype(message);
-    }
-    with_reason([&] { bag_->write(topic, stamp, message, header); });
+  Recording(file::PartFile& file, const TakeToBagOptions& options, std::optional<std::int64_t> zero)
+      : writer_(file, options.compression), header_{{"callerid", "/" + options.camera + "/trk_to_ros"}} {
+    header_[field_rate_key] = cli::number_text(options.field_rate);
+    if (zero) header_[time_code_zero_key] = std::to_string(*zero);
+    static_transforms_ = connect<tf2_msgs::TFMessage>("/tf_static", "1");
+    constants_ = connect<trk_bridge::CameraConstants>(topic_of(options.camera, "constants"), "1");
+    transforms_ = connect<tf2_msgs::TFMessage>("/tf", "0");
+    params_ = connect<trk_bridge::CameraParams>(topic_of(options.camera, "params"), "0");
+    camera_info_ = connect<sensor_msgs::CameraInfo>(topic_of(options.camera, "camera_info"), "0");
+    time_codes_ = connect<trk_bridge::TimeCode>(topic_of(options.camera, "time_code"), "0");
+    transform_.transforms.resize(1);
   }
 
-  void write(const std::string& topic, const geometry_msgs::TransformStamped& transform, bool is_latched = false) {
-    tf2_msgs::TFMessage message;
-    message.transforms.push_back(transform);
-    write(topic, transform.header.stamp, message, is_latched);
+  void write_static(const geometry_msgs::TransformStamped& transform) { write(static_transforms_, transform); }
+
+  /// What is in the update.
+  void write(const bridge::CameraUpdate& update, ::ros::Time stamp, const ros1::CameraMessages& messages) {
+    if (update.constants) writer_.write(constants_, stamp, *messages.constants());
+    if (update.pose) write(transforms_, messages.transform());
+    if (update.params) writer_.write(params_, stamp, *messages.params());
+    if (update.calibration) writer_.write(camera_info_, stamp, *messages.camera_info());
+    if (update.time_code) writer_.write(time_codes_, stamp, *messages.time_code());
   }
 
-  void close() {
-    with_reason([&] { bag_->close(); });
-  }
+  void close() { writer_.close(); }
 
  private:
-  explicit Recording(std::string caller) : caller_(std::move(caller)), bag_(std::make_unique<rosbag::Bag>()) {}
-
-  /// rosbag says how many bytes were not written, the system why.
-  template <typename Action>
-  static void with_reason(const Action& action) {
-    errno = 0;
-    try {
-      action();
-    } catch (const rosbag::BagException&) {
-      if (errno == 0) throw;
-      throw rosbag::BagIOException(std::generic_category().message(errno));
-    }
+  template <typename Message>
+  Writer::Connection connect(const std::string& topic, const char* latching) {
+    header_["latching"] = latching;
+    return writer_.connect<Message>(topic, header_);
   }
 
-  const std::string caller_;
-  ::ros::M_string extra_;
-  std::map<std::string, boost::shared_ptr<::ros::M_string>> headers_;
-  std::unique_ptr<rosbag::Bag> bag_;
+  void write(Writer::Connection connection, const geometry_msgs::TransformStamped& transform) {
+    transform_.transforms.front() = transform;
+    writer_.write(connection, transform.header.stamp, transform_);
+  }
+
+  Writer writer_;
+  ::ros::M_string header_;
+  Writer::Connection static_transforms_, constants_, transforms_, params_, camera_info_, time_codes_;
+  tf2_msgs::TFMessage transform_;
 };
 
 void report(const bridge::CameraStatistics& statistics, std::ostream& err) {
@@ -212,25 +181,39 @@ void report(const bridge::CameraStatistics& statistics, std::ostream& err) {
   }
 }
 
-void record(const file::Take& take, const Schedule& schedule, TakeCamera& camera, Recording& recording,
-            cli::LongRun& run) {
-  const std::int64_t begin = schedule.at(0);
-  if (!bridge::can_be_stamp(begin) || !bridge::can_be_stamp(schedule.at(take.params.size()))) {
+/// Of the next field.
+std::int64_t stamp_at(const Schedule& schedule, std::uint64_t field) {
+  const std::int64_t stamp = schedule.at(field);
+  if (!bridge::can_be_stamp(stamp)) {
     throw BagError("its fields are outside of 1970 to 2106, the range of ROS time");
   }
-  const auto& messages = camera.messages();
-  recording.write("/tf_static", camera.optical_transform(begin), /*is_latched=*/true);
-  if (camera.process(take.constants, begin).constants) {
-    recording.write(camera.topic("constants"), ros1::to_time(begin), *messages.constants(), /*is_latched=*/true);
-  }
-  for (std::size_t i = 0; i < take.params.size(); ++i) {
-    run.at(static_cast<double>(i) / static_cast<double>(take.params.size()));
-    const auto update = camera.process(take.params[i], schedule.at(i), schedule.time_code(i));
-    const auto stamp = ros1::to_time(update.stamp);
-    if (update.pose) recording.write("/tf", messages.transform());
-    if (update.params) recording.write(camera.topic("params"), stamp, *messages.params());
-    if (update.calibration) recording.write(camera.topic("camera_info"), stamp, *messages.camera_info());
-    if (update.time_code) recording.write(camera.topic("time_code"), stamp, *messages.time_code());
+  return stamp;
+}
+
+/// What is behind the head of the take. The fault is that of a last line that is cut.
+std::optional<transport::Fault> record(file::TakeReader& take, const Schedule& schedule, TakeCamera& camera,
+                                       Recording& recording, cli::LongRun& run) {
+  const std::int64_t begin = stamp_at(schedule, 0);
+  recording.write_static(camera.optical_transform(begin));
+  recording.write(camera.process(take.constants(), begin), ros1::to_time(begin), camera.messages());
+  std::optional<transport::Fault> cut;
+  for (std::uint64_t field = 0;;) {
+    switch (take.next()) {
+      case file::TakeReader::Got::params: {
+        run.at(take.progress());
+        const auto update = camera.process(take.params(), stamp_at(schedule, field), schedule.time_code(field));
+        recording.write(update, ros1::to_time(update.stamp), camera.messages());
+        ++field;
+        break;
+      }
+      case file::TakeReader::Got::cut:
+        cut = take.fault();
+        break;
+      case file::TakeReader::Got::end:
+        return cut;
+      default:
+        throw transport::TransportError(take.error());
+    }
   }
 }
 
@@ -242,18 +225,19 @@ void check_written(const std::string& path, const transport::Written& written) {
 
 void bag_of_take(const std::string& take_path, const std::string& bag_path, const TakeToBagOptions& options,
                  cli::LongRun& run, std::ostream& err) {
-  const file::Take take = file::read_take(take_path);
-  for (const auto& line : take.left_out) err << "trk: warning: " << take_path << ": " << describe(line.fault) << '\n';
+  file::TakeReader take(take_path, file::Unsound::is_error, file::Waiting::blocks);
+  if (take.next() != file::TakeReader::Got::head) throw transport::TransportError(take.error());
   try {
     TakeCamera camera(options);
-    const Schedule schedule(take.time_code, options);
+    const Schedule schedule(take.time_code(), options);
     auto opened = file::PartFile::open(bag_path, {options.overwrite});
     if (!opened) check_written(bag_path, tl::unexpected(opened.error()));
     auto& file = *opened;
     run.begin("writing " + bag_path);
+    std::optional<transport::Fault> cut;
     try {
-      Recording recording(file.part(), options, schedule.zero());
-      record(take, schedule, camera, recording, run);
+      Recording recording(file, options, schedule.zero());
+      cut = record(take, schedule, camera, recording, run);
       recording.close();
     } catch (...) {
       file.discard();
@@ -263,14 +247,15 @@ void bag_of_take(const std::string& take_path, const std::string& bag_path, cons
     if (const auto published = file.publish(); !published) {
       check_written(bag_path, transport::refused_by_system(published.error()));
     }
+    if (cut) err << "trk: warning: " << take_path << ": " << describe(*cut) << '\n';
     report(camera.statistics(), err);
     err << "trk: " << bag_path << ": " << camera.statistics().sequence.accepted << " fields of camera "
         << options.camera << ", from " << base::seconds_text(schedule.at(0)) << " at "
         << cli::number_text(options.field_rate) << " fields a second\n";
   } catch (const BagError& error) {
     throw BagError(take_path + ": " + error.what());
-  } catch (const rosbag::BagException& error) {
-    throw transport::TransportError(bag_path + ": cannot be written: " + error.what());
+  } catch (const std::system_error& error) {
+    throw transport::TransportError(bag_path + ": cannot be written: " + error.code().message());
   }
 }
 

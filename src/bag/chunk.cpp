@@ -1,6 +1,7 @@
 #include "chunk.h"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include <bzlib.h>
@@ -106,6 +107,24 @@ Unpacked unpack_chunk(const std::string& compression, std::vector<std::uint8_t>&
   if (compression == rosbag::COMPRESSION_BZ2) return unpack<Bzip2>(packed);
   if (compression == rosbag::COMPRESSION_LZ4) return unpack<Lz4>(packed);
   return {{}, "is packed in a way that is not known (" + compression + ")"};
+}
+
+std::vector<std::uint8_t> pack_chunk(const std::string& compression, std::vector<std::uint8_t>& bytes) {
+  // What cannot be compressed grows by 1 % and 600 bytes at most with bzip2, by less with lz4.
+  std::vector<std::uint8_t> packed(bytes.size() + bytes.size() / 100 + 600);
+  auto size = static_cast<unsigned>(packed.size());
+  auto* const from = reinterpret_cast<char*>(bytes.data());
+  auto* const to = reinterpret_cast<char*>(packed.data());
+  // Blocks as rosbag packs them: of 900 kB, and of 1 MiB.
+  const bool good =
+      compression == rosbag::COMPRESSION_BZ2
+          ? BZ2_bzBuffToBuffCompress(to, &size, from, static_cast<unsigned>(bytes.size()), /*blockSize100k=*/9,
+                                     /*verbosity=*/0, /*workFactor=*/30) == BZ_OK
+          : roslz4_buffToBuffCompress(from, static_cast<unsigned>(bytes.size()), to, &size, /*block_size_id=*/6) ==
+                ROSLZ4_OK;
+  if (!good) throw std::bad_alloc();
+  packed.resize(size);
+  return packed;
 }
 
 }  // namespace trk_bridge::bag

@@ -1,4 +1,4 @@
-// Compressed chunks of bags, unpacked as far as they go.
+// Compressed chunks of bags, packed, and unpacked as far as they go.
 #pragma once
 
 #include <cstdint>
@@ -15,5 +15,8 @@ struct Unpacked {
 /// `compression` is a bag's word: bz2 or lz4; any other is a fault. What was packed whole before a cut or a fault is
 /// given, up to the 1 GiB that no recorder puts into one chunk.
 Unpacked unpack_chunk(const std::string& compression, std::vector<std::uint8_t>& packed);
+
+/// `compression` is bz2 or lz4.
+std::vector<std::uint8_t> pack_chunk(const std::string& compression, std::vector<std::uint8_t>& bytes);
 
 }  // namespace trk_bridge::bag

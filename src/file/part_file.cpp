@@ -168,6 +168,18 @@ tl::expected<void, SinkFault> PartFile::check(const std::string& path, const Opt
   return {};
 }
 
+tl::expected<void, int> PartFile::write(std::string_view bytes, std::int64_t at) noexcept {
+  while (!bytes.empty()) {
+    const ssize_t written = is_fifo_ ? ::write(fd(), bytes.data(), bytes.size())
+                                     : ::pwrite(fd(), bytes.data(), bytes.size(), static_cast<off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return tl::unexpected(written < 0 ? errno : EIO);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    at += written;
+  }
+  return {};
+}
+
 tl::expected<void, int> PartFile::publish(std::optional<std::int64_t> size) noexcept {
   if (!is_open()) return tl::unexpected(EBADF);
   const auto refused = [&]() noexcept {

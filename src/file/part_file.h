@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <tl/expected.hpp>
 
@@ -48,6 +49,9 @@ class PartFile {
   const std::string& path() const noexcept { return path_; }
   /// Where it is written before it is whole.
   const std::string& part() const noexcept { return part_; }
+
+  /// All of `bytes` at this place of the file (of a FIFO, behind what was written before). The error is an errno.
+  [[nodiscard]] tl::expected<void, int> write(std::string_view bytes, std::int64_t at) noexcept;
 
   /// Cuts it to `size` bytes where that is given, brings everything to the disk, gives the file its final name and
   /// closes it. The error is an errno; the `.part` then stays.

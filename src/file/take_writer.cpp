@@ -3,8 +3,6 @@
 #include <cerrno>
 #include <utility>
 
-#include <unistd.h>
-
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::file {
@@ -93,22 +91,12 @@ Written TakeWriter::write(const wire::CameraParams& params) {
 }
 
 Written TakeWriter::append(std::string_view lines) {
-  std::size_t done = 0;
-  while (done < lines.size()) {
-    const std::string_view rest = lines.substr(done);
-    const ssize_t written = file_.is_fifo() ? ::write(file_.fd(), rest.data(), rest.size())
-                                            : ::pwrite(file_.fd(), rest.data(), rest.size(),
-                                                       static_cast<off_t>(size_ + static_cast<std::int64_t>(done)));
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) {
-      const int error = written < 0 ? errno : EIO;
-      if (file_.is_fifo()) {
-        file_.discard();
-        has_fields_ = false;
-      }
-      return error == EPIPE ? refused(SinkReason::no_reader) : refused_by_system(error);
+  if (const auto written = file_.write(lines, size_); !written) {
+    if (file_.is_fifo()) {
+      file_.discard();
+      has_fields_ = false;
     }
-    done += static_cast<std::size_t>(written);
+    return written.error() == EPIPE ? refused(SinkReason::no_reader) : refused_by_system(written.error());
   }
   size_ += static_cast<std::int64_t>(lines.size());
   return {};
