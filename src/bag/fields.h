@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
+
+#include <tl/expected.hpp>
 
 #include "convert.h"
 #include "reader.h"
@@ -12,19 +15,23 @@
 
 namespace trk_bridge::bag {
 
-struct Fields {
-  wire::CameraConstants constants;
-  std::vector<wire::CameraParams> params;
-  std::vector<std::int64_t> stamps;  ///< of params, ns since 1970
-  bool has_counters = true;          ///< of the sender; else they only number the fields
+/// A video field of a bag. The constants are the take's; they stay the same.
+struct Field {
+  const wire::CameraConstants& constants;
+  const wire::CameraParams& params;
+  std::int64_t stamp = 0;  ///< ns since 1970
 };
+/// The error is why a take cannot hold the field: it is left out.
+using FieldVisitor = std::function<tl::expected<void, std::string>(const Field&)>;
 
-/// The fields of a camera's params and constants. Those left out are reported on `err`. Throws BagError when no field
-/// is left.
-Fields fields_from_params(Reader&, const std::string& camera, const BagToTakeOptions&, cli::LongRun&,
-                          std::ostream& err);
-/// The same of its camera_info and tf.
-Fields fields_from_tf(Reader&, const std::string& camera, const BagToTakeOptions&, cli::LongRun&, std::ostream& err);
+/// Visits the fields of a camera's params, with its constants, one after another. Those left out are reported on `err`.
+/// Throws BagError when no field is left, and what `visit` throws.
+void fields_from_params(Reader&, const std::string& camera, const BagToTakeOptions&, cli::LongRun&,
+                        const FieldVisitor& visit, std::ostream& err);
+/// The same of its camera_info and tf. Their counters only number the fields. In memory are the messages of the time
+/// that tf interpolates over, and by which stamps are out of order.
+void fields_from_tf(Reader&, const std::string& camera, const BagToTakeOptions&, cli::LongRun&,
+                    const FieldVisitor& visit, std::ostream& err);
 
 /// The constants of a recording, in its converter. They may change up to the first field after them; a take holds one
 /// set.

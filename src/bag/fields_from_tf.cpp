@@ -1,7 +1,8 @@
 #include <algorithm>
+#include <limits>
+#include <map>
 #include <ostream>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include <sensor_msgs/CameraInfo.h>
@@ -24,77 +25,121 @@ namespace {
 using geometry_msgs::TransformStamped;
 
 /// How far transforms may lie apart to be interpolated between, as in tf's own buffers.
-const ::ros::Duration reach(10.0);
+constexpr std::int64_t reach = 10'000'000'000;  // ns
 
-struct Recorded {
+/// Stamps in the order of recording, ns; none is 0.
+struct Stamps {
+  std::uint64_t count = 0;
+  std::int64_t newest = 0;
+  std::int64_t disorder = 0;  ///< by how much the newest one was newer than one that came behind it, at most
+
+  void add(std::int64_t stamp) {
+    ++count;
+    newest = std::max(newest, stamp);
+    disorder = std::max(disorder, newest - stamp);
+  }
+  /// Whether of `all` none up to `stamp` is still to come.
+  bool have_reached(std::int64_t stamp, const Stamps& all) const {
+    return count == all.count || stamp < newest - all.disorder;
+  }
+};
+
+/// What has to be known before the first field.
+struct Survey {
   RecordedConstants constants;
-  std::vector<sensor_msgs::CameraInfo> infos;
-  std::vector<TransformStamped> moving, fixed;
+  Stamps infos, transforms;
+  std::optional<sensor_msgs::CameraInfo> first;   // by its stamp
+  std::map<std::string, TransformStamped> fixed;  // by child
 };
 
 void strip_slash(std::string& frame) {
   if (!frame.empty() && frame.front() == '/') frame.erase(0, 1);
 }
 
-Recorded read(Reader& bag, const std::string& camera, std::uint32_t format) {
-  const std::string info_topic = topic_of(camera, "camera_info");
-  const std::string constants_topic = topic_of(camera, "constants");
-  has_topic<sensor_msgs::CameraInfo>(bag.connections(), info_topic);
-  has_topic<trk_bridge::CameraConstants>(bag.connections(), constants_topic);
+std::vector<TransformStamped> transforms_of(const RawMessage& raw) {
+  auto transforms = message_of<tf2_msgs::TFMessage>(raw).transforms;
+  for (auto& transform : transforms) {
+    strip_slash(transform.header.frame_id);
+    strip_slash(transform.child_frame_id);
+  }
+  return transforms;
+}
+
+struct Topics {
+  std::string info, constants;
+
+  bool operator()(const Connection& connection) const {
+    const auto& topic = connection.topic;
+    return topic == info || topic == constants || topic == "/tf" || topic == "/tf_static";
+  }
+};
+
+Topics checked_topics(const Reader& bag, const std::string& camera) {
+  Topics topics{topic_of(camera, "camera_info"), topic_of(camera, "constants")};
+  has_topic<sensor_msgs::CameraInfo>(bag.connections(), topics.info);
+  has_topic<trk_bridge::CameraConstants>(bag.connections(), topics.constants);
   const bool has_tf = has_topic<tf2_msgs::TFMessage>(bag.connections(), "/tf");
   const bool has_tf_static = has_topic<tf2_msgs::TFMessage>(bag.connections(), "/tf_static");
   if (!has_tf && !has_tf_static) throw BagError("there is neither /tf nor /tf_static: the pose is not known");
+  return topics;
+}
 
-  Recorded recorded{RecordedConstants(format), {}, {}, {}};
-  const auto wanted = [&](const Connection& connection) {
-    const auto& topic = connection.topic;
-    return topic == info_topic || topic == constants_topic || topic == "/tf" || topic == "/tf_static";
-  };
-  bag.read(wanted, [&](const RawMessage& raw) {
-    if (raw.connection.topic == info_topic) {
-      recorded.constants.note_field();
-      recorded.infos.push_back(message_of<sensor_msgs::CameraInfo>(raw));
-      strip_slash(recorded.infos.back().header.frame_id);
-    } else if (raw.connection.topic == constants_topic) {
+Survey survey_of(Reader& bag, const Topics& topics, std::uint32_t format) {
+  Survey survey{RecordedConstants(format), {}, {}, {}, {}};
+  bag.read(topics, [&](const RawMessage& raw) {
+    if (raw.connection.topic == topics.info) {
+      survey.constants.note_field();
+      auto info = message_of<sensor_msgs::CameraInfo>(raw);
+      if (!info.header.stamp.isZero()) survey.infos.add(stamp_of(info));
+      if (!survey.first || stamp_of(info) < stamp_of(*survey.first)) survey.first = std::move(info);
+    } else if (raw.connection.topic == topics.constants) {
       const auto message = message_of<trk_bridge::CameraConstants>(raw);
-      recorded.constants.use(ros1::from_msg(message), stamp_of(message));
+      survey.constants.use(ros1::from_msg(message), stamp_of(message));
     } else {
-      auto& into = raw.connection.topic == "/tf" ? recorded.moving : recorded.fixed;
-      for (auto& transform : message_of<tf2_msgs::TFMessage>(raw).transforms) {
-        strip_slash(transform.header.frame_id);
-        strip_slash(transform.child_frame_id);
-        into.push_back(transform);
+      for (auto& transform : transforms_of(raw)) {
+        if (raw.connection.topic == "/tf_static") {
+          survey.fixed[transform.child_frame_id] = transform;
+        } else if (!transform.header.stamp.isZero()) {
+          survey.transforms.add(stamp_of(transform));
+        }
       }
     }
   });
-  return recorded;
+  return survey;
 }
 
-/// By time, one for each child and stamp: a buffer warns of repeated ones.
-void put_in_order(std::vector<TransformStamped>& transforms) {
-  const auto key = [](const TransformStamped& t) { return std::tie(t.header.stamp, t.child_frame_id); };
-  std::stable_sort(transforms.begin(), transforms.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  transforms.erase(
-      std::unique(transforms.begin(), transforms.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }),
-      transforms.end());
-}
-
-/// The transforms of a recording. The buffer holds only those around the requested time, because each lookup searches
-/// all that it holds.
+/// The transforms of a recording, as they come. The buffer holds only those around the requested time, because each
+/// lookup searches all that it holds.
 class Poses {
  public:
-  Poses(std::vector<TransformStamped> moving, const std::vector<TransformStamped>& fixed)
-      : moving_(std::move(moving)), buffer_(reach + reach) {
-    put_in_order(moving_);
-    for (const auto& transform : fixed) buffer_.setTransform(transform, "bag", /*is_static=*/true);
+  explicit Poses(const Survey& survey) : all_(survey.transforms), buffer_(::ros::Duration().fromNSec(2 * reach)) {
+    for (const auto& [child, transform] : survey.fixed) buffer_.setTransform(transform, "bag", /*is_static=*/true);
   }
 
-  /// Each stamp must not be before the last one. The error is tf's own.
-  tl::expected<Eigen::Isometry3d, std::string> at(::ros::Time stamp, const std::string& parent,
-                                                  const std::string& child) {
-    for (; next_ < moving_.size() && moving_[next_].header.stamp <= stamp + reach; ++next_) {
-      buffer_.setTransform(moving_[next_], "bag", /*is_static=*/false);
+  /// Of those of one child with equal stamps the first counts: a buffer warns of repeated ones.
+  void add(const TransformStamped& transform) {
+    const std::int64_t stamp = stamp_of(transform);
+    if (stamp == 0) return;
+    come_.add(stamp);
+    waiting_.emplace(std::pair(stamp, transform.child_frame_id), transform);
+  }
+
+  /// Whether all have come that a pose at this time may be made of.
+  bool have_come(std::int64_t stamp) const { return come_.have_reached(stamp + reach, all_); }
+  /// From now on no pose before this time is asked for.
+  void pass_to(std::int64_t stamp) {
+    while (!waiting_.empty()) {
+      const auto first = waiting_.begin();
+      const std::int64_t its_stamp = first->first.first;
+      if (its_stamp > stamp + reach || !come_.have_reached(its_stamp, all_)) break;
+      buffer_.setTransform(first->second, "bag", /*is_static=*/false);
+      waiting_.erase(first);
     }
+  }
+
+  /// After pass_to() of this time. The error is tf's own.
+  tl::expected<Eigen::Isometry3d, std::string> at(::ros::Time stamp, const std::string& parent,
+                                                  const std::string& child) const {
     try {
       return ros1::to_isometry(buffer_.lookupTransform(parent, child, stamp).transform);
     } catch (const tf2::ExtrapolationException&) {
@@ -105,14 +150,15 @@ class Poses {
   }
 
  private:
-  std::vector<TransformStamped> moving_;
-  std::size_t next_ = 0;
+  const Stamps all_;
+  Stamps come_;
+  std::map<std::pair<std::int64_t, std::string>, TransformStamped> waiting_;  // by stamp and child
   tf2::BufferCore buffer_;
 };
 
 /// Those that the bag lacks, from the options.
-void use_chip_options(Recorded& recorded, const BagToTakeOptions& options) {
-  if (recorded.constants.converter().incoming() != nullptr) {
+void use_chip_options(Survey& survey, const BagToTakeOptions& options) {
+  if (survey.constants.converter().incoming() != nullptr) {
     if (options.chip_width || options.chip_height) refuse_chip_options();
     return;
   }
@@ -120,7 +166,7 @@ void use_chip_options(Recorded& recorded, const BagToTakeOptions& options) {
     throw BagError(
         "there are no constants, and CameraInfo has no millimetres: set --chip-width MM and --chip-height MM");
   }
-  const auto& info = recorded.infos.front();
+  const auto& info = *survey.first;
   wire::CameraConstants constants;
   constants.image_width = static_cast<std::int32_t>(info.width);
   constants.image_height = static_cast<std::int32_t>(info.height);
@@ -132,7 +178,7 @@ void use_chip_options(Recorded& recorded, const BagToTakeOptions& options) {
                    std::to_string(info.width) + " x " + std::to_string(info.height) +
                    " pixels (camera_info) describe no picture");
   }
-  recorded.constants.use(constants, stamp_of(info));
+  survey.constants.use(constants, stamp_of(info));
 }
 
 /// The lens of each CameraInfo, fitted again only when the calibration changes; and the largest errors of all fits.
@@ -184,7 +230,7 @@ class LensFits {
 };
 
 /// The pose of the camera's own axes: those of CameraInfo's frame are optical.
-tl::expected<Eigen::Isometry3d, std::string> pose_of(Poses& poses, const sensor_msgs::CameraInfo& info,
+tl::expected<Eigen::Isometry3d, std::string> pose_of(const Poses& poses, const sensor_msgs::CameraInfo& info,
                                                      const BagToTakeOptions& options) {
   if (info.header.stamp.isZero()) return tl::unexpected(std::string("camera_info without a stamp"));
   const bool is_optical = !options.camera_frame || options.camera_frame_is_optical;
@@ -193,7 +239,7 @@ tl::expected<Eigen::Isometry3d, std::string> pose_of(Poses& poses, const sensor_
   return *pose * ros1::camera_T_optical().inverse();
 }
 
-tl::expected<wire::CameraParams, std::string> params_of(Poses& poses, LensFits& fits,
+tl::expected<wire::CameraParams, std::string> params_of(const Poses& poses, LensFits& fits,
                                                         const sensor_msgs::CameraInfo& info,
                                                         const BagToTakeOptions& options,
                                                         const camera::Converter& converter) {
@@ -206,42 +252,108 @@ tl::expected<wire::CameraParams, std::string> params_of(Poses& poses, LensFits& 
   return *params;
 }
 
+/// Makes fields of camera_info in the order of stamps, each when all transforms have come that it needs.
+class Conversion {
+ public:
+  Conversion(const Survey& survey, const BagToTakeOptions& options, const FieldVisitor& visit)
+      : options_(options),
+        visit_(visit),
+        converter_(survey.constants.converter()),
+        constants_(*converter_.outgoing()),
+        all_(survey.infos),
+        earliest_(stamp_of(*survey.first)),
+        poses_(survey),
+        fits_(*converter_.incoming()) {
+    if (options.id) constants_.id = *options.id;
+  }
+
+  void add(const TransformStamped& transform) {
+    poses_.add(transform);
+    convert_complete();
+  }
+  void add(const sensor_msgs::CameraInfo& info) {
+    if (info.header.stamp.isZero()) return convert(info);
+    come_.add(stamp_of(info));
+    waiting_.emplace(stamp_of(info), info);
+    convert_complete();
+  }
+
+  std::uint64_t fields() const { return fields_; }
+  void report(std::ostream& err) const {
+    omissions_.report(err);
+    fits_.report(err);
+  }
+
+ private:
+  void convert_complete() {
+    while (!waiting_.empty()) {
+      const auto first = waiting_.begin();
+      if (!come_.have_reached(first->first, all_) || !poses_.have_come(first->first)) break;
+      poses_.pass_to(first->first);
+      convert(first->second);
+      waiting_.erase(first);
+    }
+    // Also where no camera_info comes for long, so that what it will not need is not kept.
+    poses_.pass_to(waiting_.empty() ? earliest_to_come() : std::min(waiting_.begin()->first, earliest_to_come()));
+  }
+
+  std::int64_t earliest_to_come() const {
+    if (come_.count == all_.count) return std::numeric_limits<std::int64_t>::max() - reach;
+    return std::max(earliest_, come_.newest - all_.disorder);
+  }
+
+  void convert(const sensor_msgs::CameraInfo& info) {
+    const auto passed = pass(info);
+    if (passed) {
+      ++fields_;
+    } else {
+      omissions_.add(passed.error(), stamp_of(info));
+    }
+  }
+
+  tl::expected<void, std::string> pass(const sensor_msgs::CameraInfo& info) {
+    auto params = params_of(poses_, fits_, info, options_, converter_);
+    if (!params) return tl::unexpected(params.error());
+    params->id = constants_.id;
+    params->counter = fields_ + 1;
+    return visit_({constants_, *params, stamp_of(info)});
+  }
+
+  const BagToTakeOptions& options_;
+  const FieldVisitor& visit_;
+  const camera::Converter& converter_;
+  wire::CameraConstants constants_;
+  const Stamps all_;
+  const std::int64_t earliest_;
+  Stamps come_;
+  std::multimap<std::int64_t, sensor_msgs::CameraInfo> waiting_;  // by stamp
+  Poses poses_;
+  LensFits fits_;
+  Omissions omissions_;
+  std::uint64_t fields_ = 0;
+};
+
 }  // namespace
 
-Fields fields_from_tf(Reader& bag, const std::string& camera, const BagToTakeOptions& options, cli::LongRun& run,
-                      std::ostream& err) {
-  Recorded recorded = read(bag, camera, options.format.value_or(wire::euler));
-  if (recorded.infos.empty()) throw BagError("there is no message on " + topic_of(camera, "camera_info"));
-  std::stable_sort(recorded.infos.begin(), recorded.infos.end(),
-                   [](const auto& a, const auto& b) { return a.header.stamp < b.header.stamp; });
-  use_chip_options(recorded, options);
-  const camera::Converter& converter = recorded.constants.converter();
-  Fields fields;
-  fields.has_counters = false;
-  fields.constants = *converter.outgoing();
-  if (options.id) fields.constants.id = *options.id;
-  Poses poses(std::move(recorded.moving), recorded.fixed);
-  LensFits fits(*converter.incoming());
-  Omissions omissions;
-  run.begin("converting");
-  double done = 0;
-  for (const auto& info : recorded.infos) {
-    run.at(done++ / static_cast<double>(recorded.infos.size()));
-    auto params = params_of(poses, fits, info, options, converter);
-    if (!params) {
-      omissions.add(params.error(), stamp_of(info));
-      continue;
+void fields_from_tf(Reader& bag, const std::string& camera, const BagToTakeOptions& options, cli::LongRun& run,
+                    const FieldVisitor& visit, std::ostream& err) {
+  const Topics topics = checked_topics(bag, camera);
+  Survey survey = survey_of(bag, topics, options.format.value_or(wire::euler));
+  if (!survey.first) throw BagError("there is no message on " + topics.info);
+  use_chip_options(survey, options);
+  Conversion conversion(survey, options, visit);
+  bag.read(topics, [&](const RawMessage& raw) {
+    if (raw.connection.topic == topics.info) {
+      auto info = message_of<sensor_msgs::CameraInfo>(raw);
+      strip_slash(info.header.frame_id);
+      conversion.add(info);
+    } else if (raw.connection.topic == "/tf") {
+      for (const auto& transform : transforms_of(raw)) conversion.add(transform);
     }
-    params->id = fields.constants.id;
-    params->counter = fields.params.size() + 1;
-    fields.params.push_back(*params);
-    fields.stamps.push_back(stamp_of(info));
-  }
+  });
   run.end();
-  omissions.report(err);
-  fits.report(err);
-  if (fields.params.empty()) throw BagError("no field is left of " + topic_of(camera, "camera_info"));
-  return fields;
+  conversion.report(err);
+  if (conversion.fields() == 0) throw BagError("no field is left of " + topics.info);
 }
 
 }  // namespace trk_bridge::bag

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <ros/message_traits.h>
@@ -16,11 +17,9 @@
 #include "cli/long_run.h"
 #include "trk_bridge/ros/messages.h"
 
-namespace rosbag {
-class Bag;
-}
-
 namespace trk_bridge::bag {
+
+struct Index;
 
 /// Why a bag cannot be used; the text does not name it.
 class BagError : public std::runtime_error {
@@ -37,7 +36,7 @@ struct Connection {
 /// Valid while it is visited.
 struct RawMessage {
   const Connection& connection;
-  const std::vector<std::uint8_t>& bytes;  ///< serialised
+  std::string_view bytes;  ///< serialised
 };
 
 /// Whether the connection carries this message, as it was when this program was built.
@@ -51,8 +50,8 @@ template <typename Message>
 Message message_of(const RawMessage& message) {
   Message result;
   // The stream reads only, but asks for bytes that may be written.
-  ::ros::serialization::IStream stream(const_cast<std::uint8_t*>(message.bytes.data()),
-                                       static_cast<std::uint32_t>(message.bytes.size()));
+  auto* const bytes = reinterpret_cast<std::uint8_t*>(const_cast<char*>(message.bytes.data()));
+  ::ros::serialization::IStream stream(bytes, static_cast<std::uint32_t>(message.bytes.size()));
   try {
     ::ros::serialization::deserialize(stream, result);
   } catch (const std::exception&) {
@@ -68,7 +67,9 @@ std::int64_t stamp_of(const Message& message) {
   return ros1::from_time(message.header.stamp);
 }
 
-/// Open for reading; the file is never written. Not synchronised.
+/// Reads a bag of format 2.0 chunk by chunk. In memory are the chunks whose times overlap at one moment (of a
+/// recorder's bag one or two, of 768 KiB each unless a message is longer), and where all chunks are. The file is never
+/// written. Not synchronised; a visitor may read, too.
 class Reader {
  public:
   /// Throws BagError, and Interrupted.
@@ -83,17 +84,19 @@ class Reader {
 
   using Filter = std::function<bool(const Connection&)>;
   using Visitor = std::function<void(const RawMessage&)>;
-  /// Visits the messages of the connections that `wanted` is true for, in the order of their recording. Throws
-  /// BagError, and Interrupted.
+  /// Visits the messages of the connections that `wanted` is true for, in the order of their times of recording, and of
+  /// equal times as they stand in the file; without an index all as they stand in the file. Throws BagError, and
+  /// Interrupted.
   void read(const Filter& wanted, const Visitor& visit);
+  /// The same until `visit` returns false.
+  void read_while(const Filter& wanted, const std::function<bool(const RawMessage&)>& visit);
 
  private:
-  bool open();
-  void read_indexed(const Filter& wanted, const Visitor& visit);
+  void read_indexed(const Filter& wanted, const std::function<bool(const RawMessage&)>& visit);
 
   std::string path_;
   cli::LongRun& run_;
-  std::unique_ptr<rosbag::Bag> bag_;  // none when it has to be scanned
+  std::unique_ptr<Index> index_;  // none when it has to be scanned
   std::vector<Connection> connections_;
   std::string damage_;
 };

@@ -10,24 +10,71 @@
 namespace trk_bridge::bag {
 namespace {
 
-void write(const Fields& fields, const base::TimeCode& code, const std::string& path, bool overwrite,
-           cli::LongRun& run) {
-  file::TakeWriter writer(path, code, overwrite);
-  run.begin("writing " + path);
-  try {
-    check_written(path, writer.write(fields.constants));
-    double done = 0;
-    for (const auto& params : fields.params) {
-      run.at(done++ / static_cast<double>(fields.params.size()));
-      check_written(path, writer.write(params));
+/// Writes fields as they come. What the take begins with is found with the first one.
+class TakeOfFields {
+ public:
+  TakeOfFields(Reader& bag, const ChosenCamera& camera, const std::string& path, const BagToTakeOptions& options)
+      : bag_(bag), camera_(camera), path_(path), options_(options) {}
+
+  /// The error is why the take cannot hold it. Throws BagError and TransportError.
+  tl::expected<void, std::string> write(const Field& field) {
+    if (!writer_.has_fields()) {
+      wire::Buffer buffer;
+      if (const auto text = wire::to_text(field.params, buffer); !text) {
+        return tl::unexpected(wire::describe(text.error()));
+      }
+      begin(field);
     }
-  } catch (...) {
-    writer.discard();
-    throw;
+    const auto written = writer_.write(field.params);
+    if (!written && written.error().reason == transport::SinkReason::not_encodable) {
+      return tl::unexpected(describe(written.error().fault));
+    }
+    check_written(path_, written);
+    series_->add(field.params.counter, field.stamp);
+    return {};
   }
-  check_written(path, writer.close());
-  run.end();
-}
+
+  void finish(std::ostream& err) {
+    check_rate(rate_, options_.field_rate, series_->measured_rate(), err);
+    series_->report_gaps(err);
+    check_written(path_, writer_.close());
+    err << "trk: " << path_ << ": " << series_->count() << " fields of " << topic()
+        << (is_from_params() ? "" : " and tf") << ", from " << base::to_string(code_) << " at "
+        << cli::number_text(rate_) << " fields a second\n";
+  }
+
+  void discard() noexcept { writer_.discard(); }
+
+ private:
+  bool is_from_params() const { return camera_.input == Input::params; }
+  std::string topic() const { return topic_of(camera_.name, is_from_params() ? "params" : "camera_info"); }
+
+  void begin(const Field& first) {
+    const auto timing = recorded_timing(bag_.connections(), topic());
+    const auto recorded = recorded_time_code(bag_, topic_of(camera_.name, "time_code"), first.stamp);
+    const auto counted = recorded && recorded->rate > 0 ? std::optional<double>(recorded->rate) : timing.field_rate;
+    rate_ = options_.field_rate.value_or(counted.value_or(default_field_rate));
+    const auto code = recorded ? tl::expected<base::TimeCode, std::string>(recorded->code)
+                               : time_code_of(first.stamp, rate_, timing.time_code_zero);
+    if (!code) throw BagError(code.error());
+    code_ = *code;
+    series_.emplace(is_from_params(), rate_);
+    auto file = file::open_take(path_, options_.overwrite);
+    if (!file) check_written(path_, tl::unexpected(file.error()));
+    check_written(path_, writer_.open(*std::move(file)));
+    writer_.set_time_code(code_);
+    check_written(path_, writer_.write(first.constants));
+  }
+
+  Reader& bag_;
+  const ChosenCamera camera_;
+  const std::string path_;
+  const BagToTakeOptions& options_;
+  double rate_ = default_field_rate;
+  base::TimeCode code_;
+  std::optional<FieldSeries> series_;
+  file::TakeWriter writer_;
+};
 
 }  // namespace
 
@@ -37,24 +84,17 @@ void take_of_bag(const std::string& bag_path, const std::string& take_path, cons
   try {
     Reader bag(bag_path, run);
     const auto camera = choose_camera(bag.connections(), options.camera, options.input);
-    const bool from_params = camera.input == Input::params;
-    const auto fields = from_params ? fields_from_params(bag, camera.name, options, run, err)
-                                    : fields_from_tf(bag, camera.name, options, run, err);
-    if (!bag.damage().empty()) err << "trk: " << bag_path << " is cut short: " << bag.damage() << '\n';
-
-    const std::string topic = topic_of(camera.name, from_params ? "params" : "camera_info");
-    const auto timing = recorded_timing(bag.connections(), topic);
-    const auto recorded = recorded_time_code(bag, topic_of(camera.name, "time_code"), fields.stamps.front());
-    const auto counted = recorded && recorded->rate > 0 ? std::optional<double>(recorded->rate) : timing.field_rate;
-    const double rate = field_rate_of(options.field_rate, counted, measured_rate(fields), err);
-    const auto code = recorded ? tl::expected<base::TimeCode, std::string>(recorded->code)
-                               : time_code_of(fields.stamps.front(), rate, timing.time_code_zero);
-    if (!code) throw BagError(code.error());
-    report_gaps(fields, rate, err);
-    write(fields, *code, take_path, options.overwrite, run);
-    err << "trk: " << take_path << ": " << fields.params.size() << " fields of " << topic
-        << (from_params ? "" : " and tf") << ", from " << base::to_string(*code) << " at " << cli::number_text(rate)
-        << " fields a second\n";
+    TakeOfFields take(bag, camera, take_path, options);
+    try {
+      const FieldVisitor visit = [&take](const Field& field) { return take.write(field); };
+      const auto& read = camera.input == Input::params ? fields_from_params : fields_from_tf;
+      read(bag, camera.name, options, run, visit, err);
+      if (!bag.damage().empty()) err << "trk: " << bag_path << " is cut short: " << bag.damage() << '\n';
+      take.finish(err);
+    } catch (...) {
+      take.discard();
+      throw;
+    }
   } catch (const BagError& error) {
     throw BagError(bag_path + ": " + error.what());
   }

@@ -18,7 +18,8 @@ namespace trk_bridge::bag {
 namespace {
 
 constexpr double nanoseconds_per_second = 1e9;
-constexpr double least_span = 2;                  // s; below, jitter is more than what rates differ by
+constexpr double least_span = 2;  // s; below, jitter is more than what rates differ by
+constexpr std::size_t most_distances = 100'000;
 constexpr double rate_tolerance = 0.02;           // 48 Hz is 4 % from 50
 constexpr std::int64_t day = 86'400'000'000'000;  // ns
 
@@ -33,44 +34,7 @@ std::optional<Number> number_of(const Connection& connection, const char* key) {
   return number;
 }
 
-std::optional<double> by_counters(const Fields& fields) {
-  const auto& params = fields.params;
-  const auto& stamps = fields.stamps;
-  long double counts = 0;
-  long double nanoseconds = 0;
-  for (std::size_t i = 1; i < params.size(); ++i) {
-    if (params[i].counter <= params[i - 1].counter || stamps[i] <= stamps[i - 1]) continue;
-    counts += static_cast<long double>(params[i].counter - params[i - 1].counter);
-    nanoseconds += static_cast<long double>(stamps[i] - stamps[i - 1]);
-  }
-  if (nanoseconds <= 0) return std::nullopt;
-  return static_cast<double>(counts * 1e9L / nanoseconds);
-}
-
-std::optional<double> by_distances(const std::vector<std::int64_t>& stamps) {
-  std::vector<std::int64_t> distances;
-  for (std::size_t i = 1; i < stamps.size(); ++i) distances.push_back(stamps[i] - stamps[i - 1]);
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  if (*middle <= 0) return std::nullopt;
-  return nanoseconds_per_second / static_cast<double>(*middle);
-}
-
 bool disagree(double rate, double measured) { return std::abs(measured / rate - 1) > rate_tolerance; }
-
-/// Missing fields between neighbours, as a gap at the stamp before.
-struct Gaps {
-  std::uint64_t gaps = 0, fields = 0, first_fields = 0;
-  std::int64_t first = 0;
-
-  void add(std::uint64_t missing, std::int64_t stamp) {
-    if (gaps++ == 0) {
-      first = stamp;
-      first_fields = missing;
-    }
-    fields += missing;
-  }
-};
 
 }  // namespace
 
@@ -89,21 +53,67 @@ RecordedTiming recorded_timing(const std::vector<Connection>& connections, const
   return timing;
 }
 
-std::optional<double> measured_rate(const Fields& fields) {
-  const auto& stamps = fields.stamps;
-  if (stamps.size() < 2 || bridge::seconds_between(stamps.front(), stamps.back()) < least_span) return std::nullopt;
-  return fields.has_counters ? by_counters(fields) : by_distances(stamps);
+FieldSeries::FieldSeries(bool has_counters, double field_rate)
+    : has_counters_(has_counters), field_rate_(field_rate), sequence_(field_rate) {}
+
+void FieldSeries::add(std::uint64_t counter, std::int64_t stamp) {
+  if (count_ == 0) first_stamp_ = stamp;
+  if (count_ > 0) add_distance(counter, stamp);
+  find_gap(counter, stamp);
+  ++count_;
+  counter_ = counter;
+  stamp_ = stamp;
 }
 
-double field_rate_of(std::optional<double> option, std::optional<double> of_bag, std::optional<double> measured,
-                     std::ostream& err) {
-  const double rate = option ? *option : of_bag.value_or(default_field_rate);
-  if (!measured || !disagree(rate, *measured)) return rate;
+void FieldSeries::add_distance(std::uint64_t counter, std::int64_t stamp) {
+  if (!has_counters_) {
+    if (distances_.size() < most_distances) distances_.push_back(stamp - stamp_);
+  } else if (counter > counter_ && stamp > stamp_) {
+    counts_ += static_cast<long double>(counter - counter_);
+    nanoseconds_ += static_cast<long double>(stamp - stamp_);
+  }
+}
+
+void FieldSeries::find_gap(std::uint64_t counter, std::int64_t stamp) {
+  if (has_counters_) {
+    const std::uint64_t lost = sequence_.counts().lost;
+    const auto order = sequence_.judge(counter);
+    const std::uint64_t now_lost = sequence_.counts().lost;
+    if (order == base::Order::next && now_lost > lost) add_gap(now_lost - lost);
+  } else if (count_ > 0) {
+    const double steps = static_cast<double>(stamp - stamp_) * field_rate_ / nanoseconds_per_second;
+    const auto missing = std::llround(steps) - 1;
+    if (missing > 0) add_gap(static_cast<std::uint64_t>(missing));
+  }
+}
+
+void FieldSeries::add_gap(std::uint64_t missing) {
+  if (gaps_.gaps++ == 0) {
+    gaps_.first = stamp_;
+    gaps_.first_fields = missing;
+  }
+  gaps_.fields += missing;
+}
+
+std::optional<double> FieldSeries::measured_rate() const {
+  if (count_ < 2 || bridge::seconds_between(first_stamp_, stamp_) < least_span) return std::nullopt;
+  if (has_counters_) {
+    if (nanoseconds_ <= 0) return std::nullopt;
+    return static_cast<double>(counts_ * 1e9L / nanoseconds_);
+  }
+  std::vector<std::int64_t> distances = distances_;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  if (*middle <= 0) return std::nullopt;
+  return nanoseconds_per_second / static_cast<double>(*middle);
+}
+
+void check_rate(double rate, std::optional<double> option, std::optional<double> measured, std::ostream& err) {
+  if (!measured || !disagree(rate, *measured)) return;
   const std::string found = "the stamps give " + cli::number_text(std::round(*measured * 1000) / 1000) +
                             " fields a second, not " + cli::number_text(rate);
   if (!option) throw BagError(found + ": set --field-rate HZ");
   err << "trk: " << found << '\n';
-  return rate;
 }
 
 std::optional<base::CountedTimeCode> recorded_time_code(Reader& bag, const std::string& topic, std::int64_t stamp) {
@@ -111,12 +121,13 @@ std::optional<base::CountedTimeCode> recorded_time_code(Reader& bag, const std::
   const auto wanted = [&topic](const Connection& connection) {
     return connection.topic == topic && carries<trk_bridge::TimeCode>(connection);
   };
-  bag.read(wanted, [&](const RawMessage& raw) {
+  bag.read_while(wanted, [&](const RawMessage& raw) {
     const auto message = message_of<trk_bridge::TimeCode>(raw);
-    if (stamp_of(message) != stamp) return;
+    if (stamp_of(message) != stamp) return true;
     found = ros1::from_msg(message);
     const auto sound = base::parse_time_code(base::to_string(found->code));
     if (!sound) throw BagError("a message of " + topic + ": " + sound.error());
+    return false;
   });
   return found;
 }
@@ -127,29 +138,13 @@ tl::expected<base::TimeCode, std::string> time_code_of(std::int64_t stamp, doubl
   return base::time_code_at(counts ? stamp - *zero : stamp % day, field_rate);
 }
 
-void report_gaps(const Fields& fields, double field_rate, std::ostream& err) {
-  Gaps gaps;
-  base::Sequence sequence(field_rate);
-  std::uint64_t lost = 0;
-  for (std::size_t i = 0; i < fields.params.size(); ++i) {
-    if (fields.has_counters) {
-      const auto order = sequence.judge(fields.params[i].counter);
-      const std::uint64_t now_lost = sequence.counts().lost;
-      if (order == base::Order::next && now_lost > lost) gaps.add(now_lost - lost, fields.stamps[i - 1]);
-      lost = now_lost;
-    } else if (i > 0) {
-      const double steps =
-          static_cast<double>(fields.stamps[i] - fields.stamps[i - 1]) * field_rate / nanoseconds_per_second;
-      const auto missing = std::llround(steps) - 1;
-      if (missing > 0) gaps.add(static_cast<std::uint64_t>(missing), fields.stamps[i - 1]);
-    }
-  }
-  if (gaps.gaps > 0) {
-    err << "trk: " << gaps.fields << " fields are missing in " << gaps.gaps << " gaps, the first of "
-        << gaps.first_fields << " after " << base::seconds_text(gaps.first)
+void FieldSeries::report_gaps(std::ostream& err) const {
+  if (gaps_.gaps > 0) {
+    err << "trk: " << gaps_.fields << " fields are missing in " << gaps_.gaps << " gaps, the first of "
+        << gaps_.first_fields << " after " << base::seconds_text(gaps_.first)
         << ": the take holds the other fields without gaps, and is shorter by them\n";
   }
-  const auto& counts = sequence.counts();
+  const auto& counts = sequence_.counts();
   if (counts.duplicates + counts.late + counts.restarts > 0) {
     err << "trk: " << counts.duplicates << " counters came twice, " << counts.late << " late, and " << counts.restarts
         << " times the counter restarted: all of these fields are in the take\n";

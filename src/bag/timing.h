@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fields.h"
+#include "trk_bridge/base/sequence.h"
 #include "trk_bridge/base/time_code.h"
 
 namespace trk_bridge::bag {
@@ -27,14 +28,45 @@ struct RecordedTiming {
 /// From the connection headers of a topic, where all of them agree.
 RecordedTiming recorded_timing(const std::vector<Connection>&, const std::string& topic);
 
-/// Fields a second from counters and stamps, or from the median distance of stamps where there are no counters. None
-/// for less than two seconds.
-std::optional<double> measured_rate(const Fields&);
+/// What the counters and stamps of fields say, one after another. Memory of a fixed size.
+class FieldSeries {
+ public:
+  /// `field_rate` in Hz. Without counters of the sender stamps alone count.
+  FieldSeries(bool has_counters, double field_rate);
 
-/// The user's `option`, else the bag's, else 50. Where the stamps disagree with it: a warning on `err` for the user's
-/// own, BagError for the others.
-double field_rate_of(std::optional<double> option, std::optional<double> of_bag, std::optional<double> measured,
-                     std::ostream& err);
+  void add(std::uint64_t counter, std::int64_t stamp);
+  std::uint64_t count() const noexcept { return count_; }
+  /// Fields a second from counters and stamps, or from the median distance of stamps where there are no counters: of
+  /// the first 100,000. None for less than two seconds.
+  std::optional<double> measured_rate() const;
+  /// Reports on `err` the fields that the recording lacks, and counters that came again.
+  void report_gaps(std::ostream& err) const;
+
+ private:
+  /// Missing fields between neighbours, as a gap at the stamp before.
+  struct Gaps {
+    std::uint64_t gaps = 0, fields = 0, first_fields = 0;
+    std::int64_t first = 0;
+  };
+
+  void add_gap(std::uint64_t missing);
+  void add_distance(std::uint64_t counter, std::int64_t stamp);
+  void find_gap(std::uint64_t counter, std::int64_t stamp);
+
+  const bool has_counters_;
+  const double field_rate_;
+  std::uint64_t count_ = 0;
+  std::int64_t first_stamp_ = 0, stamp_ = 0;
+  std::uint64_t counter_ = 0;
+  long double counts_ = 0, nanoseconds_ = 0;
+  std::vector<std::int64_t> distances_;
+  base::Sequence sequence_;
+  Gaps gaps_;
+};
+
+/// Throws BagError where the rate measured is another than the bag's or the default, and warns on `err` of the user's
+/// `option`.
+void check_rate(double rate, std::optional<double> option, std::optional<double> measured, std::ostream& err);
 
 /// The message of a topic `time_code` that has this stamp, if the bag has one. Throws BagError where it is no time
 /// code.
@@ -43,8 +75,5 @@ std::optional<base::CountedTimeCode> recorded_time_code(Reader&, const std::stri
 /// The code of a stamp, counted from the bag's zero where it has one that is not later, else from midnight UTC.
 tl::expected<base::TimeCode, std::string> time_code_of(std::int64_t stamp, double field_rate,
                                                        std::optional<std::int64_t> zero);
-
-/// Reports on `err` the fields that the recording lacks, and counters that came again.
-void report_gaps(const Fields&, double field_rate, std::ostream& err);
 
 }  // namespace trk_bridge::bag
