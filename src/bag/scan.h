@@ -1,7 +1,6 @@
 // The messages of a bag that has no index, because its recorder died or its end was lost.
 //
 // Reindexing by rosbag rewrites a bag in place; the recording of an accident should stay as it is. So its records are
-// read here one after another (bag format 2.0) for as long as they
 // read here one after another (bag format 2.0) for as long as they are whole, compressed chunks as far as they can be
 // unpacked.
 #pragma once

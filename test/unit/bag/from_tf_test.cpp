@@ -1,6 +1,8 @@
 // Takes out of recordings of tf and camera_info.
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include <sensor_msgs/CameraInfo.h>
 #include <tf2_msgs/TFMessage.h>
@@ -19,19 +21,20 @@ using testing::HasSubstr;
 /// A crane: the column turns, the head sits on a fixed arm, the camera looks where the head does.
 class FromTf : public BagTest {
  protected:
-  void put_tf(double stamp, double pan_degrees) {
-    put(stamp, "studio", "column", Eigen::Vector3d::Zero(), pan_degrees, "/tf");
-  }
-  void put_arm() {
-    put(99, "column", "head", {0, 2, 1.5}, 0, "/tf_static");
+  static tf2_msgs::TFMessage pan_at(double stamp, double pan_degrees) {
     tf2_msgs::TFMessage message;
-    auto& transform = message.transforms.emplace_back();
-    transform.header.stamp = ::ros::Time(99.0);
-    transform.header.frame_id = "head";
-    transform.child_frame_id = "lens_optical";
-    transform.transform = ros1::to_transform(ros1::camera_T_optical());
-    bag.put("/tf_static", 99, message);
+    message.transforms.push_back(transform(stamp, "studio", "column", Eigen::Vector3d::Zero(), pan_degrees));
+    return message;
   }
+  void put_tf(double stamp, double pan_degrees) { bag.put("/tf", stamp, pan_at(stamp, pan_degrees)); }
+  static tf2_msgs::TFMessage arm() {
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(transform(99, "column", "head", {0, 2, 1.5}, 0));
+    message.transforms.push_back(transform(99, "head", "lens_optical", Eigen::Vector3d::Zero(), 0));
+    message.transforms.back().transform = ros1::to_transform(ros1::camera_T_optical());
+    return message;
+  }
+  void put_arm() { bag.put("/tf_static", 99, arm()); }
   void put_info(double stamp, const std::string& model = "plumb_bob") {
     auto info = info_at(stamp);
     info.distortion_model = model;
@@ -61,18 +64,17 @@ class FromTf : public BagTest {
   SomeBag bag{directory / "some.bag"};
 
  private:
-  void put(double stamp, const std::string& parent, const std::string& child, const Eigen::Vector3d& at,
-           double pan_degrees, const std::string& topic) {
+  static geometry_msgs::TransformStamped transform(double stamp, const std::string& parent, const std::string& child,
+                                                   const Eigen::Vector3d& at, double pan_degrees) {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.linear() = camera::rotation_of({pan_degrees, 0, 0});
     pose.translation() = at;
-    tf2_msgs::TFMessage message;
-    auto& transform = message.transforms.emplace_back();
+    geometry_msgs::TransformStamped transform;
     transform.header.stamp = ::ros::Time(stamp);
     transform.header.frame_id = parent;
     transform.child_frame_id = child;
     transform.transform = ros1::to_transform(pose);
-    bag.put(topic, stamp, message);
+    return transform;
   }
 };
 
@@ -115,6 +117,30 @@ TEST_F(FromTf, AFrameOfTheCamerasOwnAxesCanBeNamed) {
   options.studio_frame = "stage";
   EXPECT_THAT(refusal(path, options), HasSubstr("no field is left"));
   EXPECT_THAT(err.str(), HasSubstr("stage"));
+}
+
+TEST_F(FromTf, TheOrderOfRecordingDoesNotMatter) {
+  // 40 s, longer than the buffer of tf; what is late is so by up to 15 s.
+  std::mt19937 random(1998);
+  std::vector<std::string> takes;
+  for (const bool shuffled : {false, true}) {
+    SomeBag messages(directory / (shuffled ? "shuffled.bag" : "sorted.bag"));
+    const auto recorded = [&](double stamp) {
+      return shuffled ? stamp + static_cast<double>(random() % 15'000) / 1000 : stamp;
+    };
+    messages.put("/tf_static", shuffled ? 200 : 99, arm());
+    for (int i = 0; i < 2000; ++i) {
+      const double stamp = 100 + i / 50.0;
+      auto tf = pan_at(stamp - 0.005, 30 * std::sin(i / 100.0));
+      // Of a stamp that comes twice, the same.
+      if (i % 10 == 0) tf.transforms.push_back(tf.transforms.front());
+      messages.put("/tf", recorded(stamp), tf);
+      messages.put("/cam/camera_info", recorded(stamp), info_at(stamp));
+    }
+    takes.push_back(test::read_text((to_take(messages.closed(), with_chip()), directory / "back.trk")));
+  }
+  EXPECT_EQ(std::count(takes[0].begin(), takes[0].end(), '\n'), 3 + 2 + 1999) << "the last one has no pose behind it";
+  EXPECT_TRUE(takes[0] == takes[1]);
 }
 
 TEST_F(FromTf, FieldsWithoutTransformsAroundThemAreLeftOut) {
