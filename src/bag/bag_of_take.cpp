@@ -93,29 +93,31 @@ class TakeCamera {
 class Schedule {
  public:
   Schedule(const base::TimeCode& code, const TakeToBagOptions& options)
-      : rate_(options.field_rate), taken_(code), code_(options.start ? base::TimeCode{} : code) {
-    const auto of_code = base::nanoseconds_of(code, rate_, 0);
-    if (!of_code && !options.start) throw BagError(of_code.error() + "; set --field-rate HZ, or --start TIME");
-    base_ = options.start.value_or(options.midnight);
-    if (of_code) zero_ = options.start ? base_ - *of_code : base_;
+      : rate_(options.field_rate),
+        codes_(base::TimeCodeSeries::from(code, rate_)),
+        times_(options.start ? base::TimeCodeSeries::from({}, rate_) : codes_),
+        base_(options.start.value_or(options.midnight)) {
+    if (!times_) throw BagError(times_.error() + "; set --field-rate HZ, or --start TIME");
   }
 
-  std::int64_t at(std::uint64_t field) const { return base_ + base::nanoseconds_of(code_, rate_, field).value(); }
+  std::int64_t at(std::uint64_t field) const { return base_ + times_->nanoseconds(field); }
   /// None when the take's code does not go with the rate.
   std::optional<base::CountedTimeCode> time_code(std::uint64_t field) const {
-    const auto code = base::time_code_after(taken_, rate_, field);
-    if (!code) return std::nullopt;
-    return base::CountedTimeCode{*code, rate_};
+    if (!codes_) return std::nullopt;
+    return base::CountedTimeCode{codes_->code(field), rate_};
   }
   /// When the time code was 00:00:00:00:1; none when the code does not go with the rate.
-  std::optional<std::int64_t> zero() const noexcept { return zero_; }
+  std::optional<std::int64_t> zero() const {
+    if (!codes_) return std::nullopt;
+    return at(0) - codes_->nanoseconds(0);
+  }
 
  private:
-  double rate_;
-  base::TimeCode taken_;
-  base::TimeCode code_;  // that stamps are counted with
-  std::int64_t base_ = 0;
-  std::optional<std::int64_t> zero_;
+  using Series = tl::expected<base::TimeCodeSeries, std::string>;
+
+  const double rate_;
+  const Series codes_, times_;
+  const std::int64_t base_;
 };
 
 /// The topics of a camera as a recorder would have got them from trk_to_ros. Connection headers are made here, because

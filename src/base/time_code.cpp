@@ -116,23 +116,42 @@ std::string to_string(const TimeCode& code) {
   return text.data();
 }
 
-tl::expected<std::int64_t, std::string> nanoseconds_of(const TimeCode& code, double field_rate, std::uint64_t index) {
+tl::expected<TimeCodeSeries, std::string> TimeCodeSeries::from(const TimeCode& code, double field_rate) {
   const auto counting = counting_of(field_rate, code.drop_frame);
   if (!counting) return tl::unexpected(counting.error());
   const auto count = count_of(code, *counting);
   if (!count) return tl::unexpected(count.error());
+  TimeCodeSeries series;
+  series.second_ = counting->second;
+  series.step_ = counting->step;
+  series.dropped_ = counting->dropped;
+  series.first_ = *count;
+  series.exact_second_ = counting->exact_second(field_rate);
+  return series;
+}
+
+std::int64_t TimeCodeSeries::nanoseconds(std::uint64_t index) const noexcept {
   const long double fields =
-      static_cast<long double>(*count) + static_cast<long double>(index) * static_cast<long double>(counting->step);
-  return static_cast<std::int64_t>(std::llround(fields * 1e9L / counting->exact_second(field_rate)));
+      static_cast<long double>(first_) + static_cast<long double>(index) * static_cast<long double>(step_);
+  return static_cast<std::int64_t>(std::llround(fields * 1e9L / exact_second_));
+}
+
+TimeCode TimeCodeSeries::code(std::uint64_t index) const noexcept {
+  const Counting counting{second_, step_, dropped_};
+  const auto samples = static_cast<std::int64_t>(index % static_cast<std::uint64_t>(counting.day()));
+  return code_of(first_ + samples * step_, counting);
+}
+
+tl::expected<std::int64_t, std::string> nanoseconds_of(const TimeCode& code, double field_rate, std::uint64_t index) {
+  const auto series = TimeCodeSeries::from(code, field_rate);
+  if (!series) return tl::unexpected(series.error());
+  return series->nanoseconds(index);
 }
 
 tl::expected<TimeCode, std::string> time_code_after(const TimeCode& code, double field_rate, std::uint64_t index) {
-  const auto counting = counting_of(field_rate, code.drop_frame);
-  if (!counting) return tl::unexpected(counting.error());
-  const auto count = count_of(code, *counting);
-  if (!count) return tl::unexpected(count.error());
-  const auto samples = static_cast<std::int64_t>(index % static_cast<std::uint64_t>(counting->day()));
-  return code_of(*count + samples * counting->step, *counting);
+  const auto series = TimeCodeSeries::from(code, field_rate);
+  if (!series) return tl::unexpected(series.error());
+  return series->code(index);
 }
 
 tl::expected<TimeCode, std::string> time_code_at(std::int64_t nanoseconds, double field_rate, bool drop_frame) {

@@ -43,11 +43,14 @@ std::int64_t midnight(const SourceSettings& settings) {
   return now - now % one_day.count();
 }
 
-/// Why a take with this code cannot be played; empty when it can.
-std::string fault_of(const base::TimeCode& code, double rate, FileTime time) {
-  if (time == FileTime::now) return {};
-  const auto first = base::nanoseconds_of(code, rate, 0);
-  return first ? std::string() : first.error() + "; say rate=HZ, or time=now to play without it";
+/// The time codes of a take; none where its first one does not fit the rate, which the error says where they are
+/// needed.
+tl::expected<std::optional<base::TimeCodeSeries>, std::string> codes_of(const TakeReader& take, double rate,
+                                                                        FileTime time) {
+  const auto codes = base::TimeCodeSeries::from(take.time_code(), rate);
+  if (codes) return *codes;
+  if (time == FileTime::now) return std::nullopt;
+  return tl::unexpected(codes.error() + "; say rate=HZ, or time=now to play without it");
 }
 
 /// Plays a take at its field rate, line by line as it is read. The schedule is absolute from the first call on, or from
@@ -55,8 +58,9 @@ std::string fault_of(const base::TimeCode& code, double rate, FileTime time) {
 /// delay it. Lines that were left out are reported when they are reached, and of a loop in the first round only.
 class FileSource final : public transport::CountedSource {
  public:
-  /// Of a regular file the reader has read the head.
-  FileSource(const SourceSettings& settings, double rate, std::unique_ptr<TakeReader> take)
+  /// Of a regular file the reader has read the head, and `codes` are those of the take.
+  FileSource(const SourceSettings& settings, double rate, std::unique_ptr<TakeReader> take,
+             std::optional<base::TimeCodeSeries> codes)
       : CountedSource("file " + settings.path),
         take_(std::move(take)),
         rate_(rate),
@@ -64,6 +68,7 @@ class FileSource final : public transport::CountedSource {
         loop_(settings.loop),
         time_(settings.time),
         midnight_(midnight(settings)),
+        codes_(codes),
         constants_due_(!take_->is_fifo()) {}
 
   Event receive(Reception& into, nanoseconds wait) override {
@@ -114,9 +119,7 @@ class FileSource final : public transport::CountedSource {
     for (;;) {
       switch (take_->next()) {
         case TakeReader::Got::head:
-          if (const auto unfit = fault_of(take_->time_code(), rate_, time_); !unfit.empty()) return failed_with(unfit);
-          constants_due_ = true;
-          return Event::sample;
+          return begin();
         case TakeReader::Got::params:
           has_next_ = has_field_ = true;
           return Event::sample;
@@ -151,6 +154,15 @@ class FileSource final : public transport::CountedSource {
       case Wake::readable:
         break;
     }
+    return Event::sample;
+  }
+
+  /// Behind the head of a FIFO.
+  Event begin() {
+    const auto codes = codes_of(*take_, rate_, time_);
+    if (!codes) return failed_with(codes.error());
+    codes_ = *codes;
+    constants_due_ = true;
     return Event::sample;
   }
 
@@ -191,16 +203,9 @@ class FileSource final : public transport::CountedSource {
       return;
     }
     sample.record = take_->params();
-    sample.time_code = time_code();
+    if (codes_) sample.time_code = base::CountedTimeCode{codes_->code(played_ - round_begin_), rate_};
     has_next_ = false;
     ++played_;
-  }
-
-  /// Of the field that comes next; none where the take's code does not fit the rate.
-  std::optional<base::CountedTimeCode> time_code() const {
-    const auto code = base::time_code_after(take_->time_code(), rate_, played_ - round_begin_);
-    if (!code) return std::nullopt;
-    return base::CountedTimeCode{*code, rate_};
   }
 
   void complete(SourceStatistics& statistics) const override {
@@ -214,8 +219,7 @@ class FileSource final : public transport::CountedSource {
 
   std::int64_t arrival() const {
     if (time_ == FileTime::now) return base::wall_now();
-    // Whether the code fits the rate does not depend on the index, and was seen before.
-    return midnight_ + *base::nanoseconds_of(take_->time_code(), rate_, played_);
+    return midnight_ + codes_->nanoseconds(played_);
   }
 
   const std::unique_ptr<TakeReader> take_;
@@ -224,6 +228,7 @@ class FileSource final : public transport::CountedSource {
   const bool loop_;
   const FileTime time_;
   const std::int64_t midnight_;
+  std::optional<base::TimeCodeSeries> codes_;
   std::string failure_;
 
   std::optional<Clock::time_point> begin_;
@@ -274,12 +279,13 @@ std::unique_ptr<Source> open_source(const SourceSettings& settings, double field
   auto take = std::make_unique<TakeReader>(settings.path, unsound, Waiting::never);
   if (take->is_fifo()) {
     if (settings.loop) refuse("loop=1: a FIFO can be played once");
-    return std::make_unique<FileSource>(settings, rate, std::move(take));
+    return std::make_unique<FileSource>(settings, rate, std::move(take), std::nullopt);
   }
   if (take->next() != TakeReader::Got::head) throw TransportError(take->error());
-  if (const auto unfit = fault_of(take->time_code(), rate, settings.time); !unfit.empty()) refuse(unfit);
+  const auto codes = codes_of(*take, rate, settings.time);
+  if (!codes) refuse(codes.error());
   if (settings.loop && !has_field(settings.path, unsound)) refuse(nothing_to_loop);
-  return std::make_unique<FileSource>(settings, rate, std::move(take));
+  return std::make_unique<FileSource>(settings, rate, std::move(take), *codes);
 }
 
 }  // namespace trk_bridge::file

@@ -252,33 +252,4 @@ TakeReader::Got TakeReader::finish() {
   return Got::end;
 }
 
-Take read_take(TakeReader& reader) {
-  Take take;
-  for (;;) {
-    switch (reader.next()) {
-      case TakeReader::Got::head:
-        take.time_code = reader.time_code();
-        take.constants = reader.constants();
-        break;
-      case TakeReader::Got::params:
-        take.params.push_back(reader.params());
-        break;
-      case TakeReader::Got::left_out:
-      case TakeReader::Got::cut:
-        take.left_out.push_back({take.params.size(), reader.fault()});
-        break;
-      case TakeReader::Got::end:
-        return take;
-      case TakeReader::Got::nothing_yet:
-      case TakeReader::Got::failed:
-        throw transport::TransportError(reader.error());
-    }
-  }
-}
-
-Take read_take(const std::string& path, Unsound unsound) {
-  TakeReader reader(path, unsound, Waiting::blocks);
-  return read_take(reader);
-}
-
 }  // namespace trk_bridge::file

@@ -4,10 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "transport/socket.h"
 #include "trk_bridge/base/time_code.h"
@@ -105,24 +103,5 @@ class TakeReader {
   transport::Fault fault_;
   std::string error_;
 };
-
-/// A whole take in memory.
-struct Take {
-  /// A line that is not there.
-  struct LeftOut {
-    std::size_t position;  ///< in `params`, of the line behind it
-    transport::Fault fault;
-  };
-
-  base::TimeCode time_code;
-  wire::CameraConstants constants;
-  std::vector<wire::CameraParams> params;  ///< may be empty: a recording that ended before its first field
-  std::vector<LeftOut> left_out;           ///< lines: a last one that is cut, and with Unsound::is_left_out others
-};
-
-/// Reads a whole take. Throws transport::TransportError: `PATH:LINE: what is wrong`, or `PATH: why it cannot be read`.
-Take read_take(const std::string& path, Unsound unsound = Unsound::is_error);
-/// The rest of it.
-Take read_take(TakeReader& reader);
 
 }  // namespace trk_bridge::file

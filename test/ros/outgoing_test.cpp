@@ -11,7 +11,6 @@
 #include <tf2_ros/transform_broadcaster.h>
 #include <trk_bridge/CameraParams.h>
 
-#include "file/take.h"
 #include "free_slot.h"
 #include "node_process.h"
 #include "nodes/ros_to_trk.h"
@@ -19,6 +18,7 @@
 #include "receiver.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"
+#include "whole_take.h"
 
 namespace trk_bridge::test {
 namespace {

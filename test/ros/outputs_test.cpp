@@ -21,7 +21,6 @@
 #include <sys/shm.h>
 #include <sys/stat.h>
 
-#include "file/take.h"
 #include "free_slot.h"
 #include "hung_storage.h"
 #include "node_process.h"
@@ -29,6 +28,7 @@
 #include "temporary_directory.h"
 #include "transport/socket.h"
 #include "udp.h"
+#include "whole_take.h"
 
 namespace trk_bridge::test {
 namespace {

@@ -4,13 +4,13 @@
 
 #include <rosgraph_msgs/Clock.h>
 
-#include "file/take.h"
 #include "file/take_writer.h"
 #include "fixture.h"
 #include "program.h"
 #include "roslaunch.h"
 #include "temporary_directory.h"
 #include "vectors.h"
+#include "whole_take.h"
 
 namespace trk_bridge::test {
 namespace {

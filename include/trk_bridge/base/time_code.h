@@ -47,6 +47,25 @@ tl::expected<std::int64_t, std::string> nanoseconds_of(const TimeCode&, double f
 /// The code of that sample. After the last one of a day comes 00:00:00:00:1. Errors as above.
 tl::expected<TimeCode, std::string> time_code_after(const TimeCode&, double field_rate, std::uint64_t index);
 
+/// The samples from a code on: the above for many indices, of which they check and prepare everything once.
+class TimeCodeSeries {
+ public:
+  /// Errors as above.
+  static tl::expected<TimeCodeSeries, std::string> from(const TimeCode&, double field_rate);
+
+  std::int64_t nanoseconds(std::uint64_t index) const noexcept;
+  TimeCode code(std::uint64_t index) const noexcept;
+
+ private:
+  TimeCodeSeries() = default;
+
+  std::int64_t second_ = 0;   // fields of a nominal second
+  std::int64_t step_ = 1;     // fields from one sample to the next
+  std::int64_t dropped_ = 0;  // fields at the beginning of a minute
+  std::int64_t first_ = 0;    // fields since 00:00:00:00:1
+  long double exact_second_ = 0;
+};
+
 /// The way back: the code of the field nearest to a time after midnight (ns, not negative); after 23:59:59 the day's
 /// codes begin again. An error for rates outside of 1 to 1e6 Hz, for a frame above 99, which a code cannot express, and
 /// for drop-frame at a rate that has none.

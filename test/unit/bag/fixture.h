@@ -14,11 +14,11 @@
 
 #include "bag/convert.h"
 #include "error_of.h"
-#include "file/take.h"
 #include "file/take_writer.h"
 #include "temporary_directory.h"
 #include "trk_bridge/wire/codec.h"
 #include "vectors.h"
+#include "whole_take.h"
 
 namespace trk_bridge::bag {
 

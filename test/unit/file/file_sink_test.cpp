@@ -15,10 +15,10 @@
 #include "deadline.h"
 #include "error_of.h"
 #include "file/recording_name.h"
-#include "file/take.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "udp.h"
+#include "whole_take.h"
 
 namespace trk_bridge::file {
 namespace {

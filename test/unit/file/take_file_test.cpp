@@ -17,6 +17,7 @@
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/format.h"
 #include "vectors.h"
+#include "whole_take.h"
 
 namespace trk_bridge::file {
 namespace {

@@ -16,11 +16,11 @@
 #include <unistd.h>
 
 #include "error_of.h"
-#include "file/take.h"
 #include "file/take_writer.h"
 #include "temporary_directory.h"
 #include "trk_bridge/transport/source.h"
 #include "vectors.h"
+#include "whole_take.h"
 
 namespace trk_bridge::file {
 namespace {

@@ -9,13 +9,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "file/take.h"
 #include "free_slot.h"
 #include "program.h"
 #include "reserved_port.h"
 #include "temporary_directory.h"
 #include "trk_bridge/camera/camera.h"
 #include "vectors.h"
+#include "whole_take.h"
 
 namespace trk_bridge::programs {
 namespace {

@@ -16,7 +16,6 @@
 #include <gtest/gtest.h>
 
 #include "base/clock.h"
-#include "file/take.h"
 #include "gated_sink.h"
 #include "memory_feed.h"
 #include "same_camera.h"
@@ -25,6 +24,7 @@
 #include "trk_bridge/wire/format.h"
 #include "udp.h"
 #include "vectors.h"
+#include "whole_take.h"
 
 namespace trk_bridge::tools {
 namespace {

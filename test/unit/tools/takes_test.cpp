@@ -6,11 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "file/take.h"
 #include "program.h"
 #include "temporary_directory.h"
 #include "trk_bridge/camera/camera.h"
 #include "vectors.h"
+#include "whole_take.h"
 
 namespace trk_bridge {
 namespace {

@@ -13,13 +13,13 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "file/take.h"
 #include "program.h"
 #include "temporary_directory.h"
 #include "transport/socket.h"
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
 #include "vectors.h"
+#include "whole_take.h"
 
 namespace trk_bridge::tools {
 namespace {

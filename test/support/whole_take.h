@@ -1,0 +1,52 @@
+// A take in memory, as a whole.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "file/take.h"
+#include "trk_bridge/transport/source.h"
+
+namespace trk_bridge::file {
+
+struct Take {
+  /// A line that is not there.
+  struct LeftOut {
+    std::size_t position;  ///< in `params`, of the line behind it
+    transport::Fault fault;
+  };
+
+  base::TimeCode time_code;
+  wire::CameraConstants constants;
+  std::vector<wire::CameraParams> params;
+  std::vector<LeftOut> left_out;  ///< lines: a last one that is cut, and with Unsound::is_left_out others
+};
+
+/// Throws transport::TransportError as the reader says it.
+inline Take read_take(const std::string& path, Unsound unsound = Unsound::is_error) {
+  TakeReader reader(path, unsound, Waiting::blocks);
+  Take take;
+  for (;;) {
+    switch (reader.next()) {
+      case TakeReader::Got::head:
+        take.time_code = reader.time_code();
+        take.constants = reader.constants();
+        break;
+      case TakeReader::Got::params:
+        take.params.push_back(reader.params());
+        break;
+      case TakeReader::Got::left_out:
+      case TakeReader::Got::cut:
+        take.left_out.push_back({take.params.size(), reader.fault()});
+        break;
+      case TakeReader::Got::end:
+        return take;
+      case TakeReader::Got::nothing_yet:
+      case TakeReader::Got::failed:
+        throw transport::TransportError(reader.error());
+    }
+  }
+}
+
+}  // namespace trk_bridge::file
