@@ -245,7 +245,7 @@ void read_by_socket(Result& result, double rate, WriterOf, double seconds) {
   socklen_t size = sizeof address;
   const timeval most{0, 500'000};
   ::setsockopt(receiver, SOL_SOCKET, SO_RCVTIMEO, &most, sizeof most);
-  ::bind(receiver, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  (void)::bind(receiver, reinterpret_cast<const sockaddr*>(&address), sizeof address);
   ::getsockname(receiver, reinterpret_cast<sockaddr*>(&address), &size);
   {
     const Writer writer(rate, [&address]() -> std::function<void(std::uint64_t)> {

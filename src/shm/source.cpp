@@ -153,20 +153,19 @@ class ShmSource final : public transport::CountedSource {
 
   /// Until it is time to look again, `most` at most, or a writer or stop() says so. False, with errno: it cannot sleep.
   bool sleep(Clock::time_point now, nanoseconds most) {
-    const Segment* const segment = link_.segment();
     nanoseconds time = Link::attach_period;
     std::optional<Segment::Waiter> writer;
-    if (segment != nullptr) {
-      time = is_woken(now) ? nanoseconds(Cadence::slowest)
-                           : nanoseconds(std::max(cadence_.next(nanoseconds_of(now)), nanoseconds_of(next_look_)) -
-                                         nanoseconds_of(now));
+    if (link_.segment() != nullptr && now < next_look_) {
+      time = next_look_ - now;
+    } else if (link_.segment() != nullptr) {
+      time = nanoseconds(is_woken(now) ? Cadence::slowest : cadence_.next(nanoseconds_of(now)) - nanoseconds_of(now));
       if (time <= nanoseconds::zero()) {
         ::sched_yield();
         return true;
       }
       if (can_be_woken()) {
-        writer = segment->wait_for_write();
-        if ((link_.has_new_params() || link_.has_new_constants()) && now >= next_look_) return true;
+        writer = link_.segment()->wait_for_write();
+        if (link_.has_new_params() || link_.has_new_constants()) return true;
       }
     }
     end_sleeps_exactly();
