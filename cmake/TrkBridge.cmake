@@ -1,7 +1,7 @@
 # What every target of this project has in common.
 include(CheckCXXSourceCompiles)
 
-# Numbers are read and written with std::from_chars and std::to_chars for doubles.
+# Numbers that are not plain are read with std::from_chars for doubles.
 set(CMAKE_REQUIRED_FLAGS -std=c++17)
 check_cxx_source_compiles(
   "#include <charconv>

@@ -36,57 +36,51 @@ int count_digits(std::uint64_t number) noexcept {
   return digits + (number >= powers[static_cast<std::size_t>(digits)] ? 1 : 0);
 }
 
-/// The digits of a number below 10^8, leading zeros included, as characters: the first in the lowest byte.
-inline std::uint64_t eight_digits(std::uint32_t number) noexcept {
-  // Two numbers of four digits, then four of two, then eight of one, in lanes of one word. The factors are those of
-  // 1 / 100 and 1 / 10, exact for what the lanes hold.
-  std::uint64_t lanes = number / 10000 | std::uint64_t{number % 10000} << 32U;
-  const std::uint64_t hundreds = (lanes * 10486 >> 20U) & 0x0000007F0000007FU;
-  lanes = hundreds | (lanes - hundreds * 100) << 16U;
-  const std::uint64_t tens = (lanes * 103 >> 10U) & 0x000F000F000F000FU;
-  lanes = tens | (lanes - tens * 10) << 8U;
-  return lanes | 0x3030303030303030U;
+constexpr std::array<char, 200> digit_pairs() noexcept {
+  std::array<char, 200> pairs{};
+  for (std::size_t i = 0; i < 100; ++i) {
+    pairs[2 * i] = static_cast<char>('0' + i / 10);
+    pairs[2 * i + 1] = static_cast<char>('0' + i % 10);
+  }
+  return pairs;
+}
+constexpr auto pairs = digit_pairs();
+
+/// All the digits of a number below 10^8, leading zeros included.
+inline void put_eight_digits(std::uint32_t number, char* to) noexcept {
+  // As a binary fraction of which each product with 100 has the next two digits before the point: 2^57 / 10^6, rounded
+  // up, is near enough for eight.
+  std::uint64_t fraction = (number * std::uint64_t{144115188076} >> 25U) + 1;
+  constexpr std::uint64_t one = std::uint64_t{1} << 32U;
+  const auto put_pair = [&fraction](char* at) {
+    std::memcpy(at, &pairs[2 * (fraction >> 32U)], 2);
+    fraction = (fraction & (one - 1)) * 100;
+  };
+  put_pair(to);
+  put_pair(to + 2);
+  put_pair(to + 4);
+  put_pair(to + 6);
 }
 
-/// The digits of a number as characters. Zeros follow, so that there are `most_digits` of them, whatever number it is:
-/// how many digits it has is not predictable, and a wrong guess takes as long as the rest.
-struct Digits {
-  static constexpr int most_digits = 17;
+/// `most_digits` digits, zeros behind the number's own: how many it has is not predictable, and a wrong guess takes as
+/// long as the rest.
+constexpr int most_digits = 17;
+inline void put_digits(std::uint64_t number, int count, char* to) noexcept {
+  constexpr std::uint32_t block = 100'000'000;
+  number *= powers[static_cast<std::size_t>(most_digits - count)];
+  const auto upper = static_cast<std::uint32_t>(number / block);
+  const auto lower = static_cast<std::uint32_t>(number - std::uint64_t{upper} * block);
+  *to = static_cast<char>('0' + upper / block);
+  put_eight_digits(upper % block, to + 1);
+  put_eight_digits(lower, to + 9);
+}
 
-  char first;
-  std::uint64_t next_eight, last_eight;
-
-  Digits(std::uint64_t number, int count) noexcept {
-    constexpr std::uint32_t block = 100'000'000;
-    number *= powers[static_cast<std::size_t>(most_digits - count)];
-    const auto upper = static_cast<std::uint32_t>(number / block);
-    const auto lower = static_cast<std::uint32_t>(number - std::uint64_t{upper} * block);
-    first = static_cast<char>('0' + upper / block);
-    next_eight = eight_digits(upper % block);
-    last_eight = eight_digits(lower);
-  }
-
-  void put(char* to) const noexcept {
-    *to = first;
-    store(next_eight, to + 1, ByteOrder::little);
-    store(last_eight, to + 9, ByteOrder::little);
-  }
-
-  /// With a point behind the first `whole` of them, 1 to 17.
-  void put(char* to, int whole) const noexcept {
-    put(to + 1);
-    const std::uint64_t eight = static_cast<unsigned char>(first) | next_eight << 8U;
-    if (whole < 8) {
-      const unsigned bits = 8 * static_cast<unsigned>(whole);
-      const std::uint64_t before = (std::uint64_t{1} << bits) - 1;
-      store((eight & before) | std::uint64_t{'.'} << bits | (eight << 8U & ~(before << 8U | 0xFFU)), to,
-            ByteOrder::little);
-      return;
-    }
-    std::memmove(to, to + 1, static_cast<std::size_t>(whole));
-    to[whole] = '.';
-  }
-};
+/// With a point behind the first `whole` of them, 1 to 17.
+inline void put_digits(std::uint64_t number, int count, int whole, char* to) noexcept {
+  put_digits(number, count, to + 1);
+  for (int i = 0; i < whole; ++i) to[i] = to[i + 1];
+  to[whole] = '.';
+}
 
 }  // namespace
 
@@ -106,19 +100,18 @@ char* write_shortest(double value, char* to) noexcept {
     // Their digits are all shown, those too that reading back does not need.
     return std::to_chars(to, to + longest_number, magnitude).ptr;
   }
-  const Digits text(digits, count);
   const int whole = count + exponent;
   if (is_fixed && whole > 0) {
-    text.put(to, whole);
+    put_digits(digits, count, whole, to);
     return to + count + (whole < count ? 1 : 0);
   }
   if (is_fixed) {
     store(std::uint64_t{0x3030303030302E30U}, to, ByteOrder::little);
     to += 2 - whole;
-    text.put(to);
+    put_digits(digits, count, to);
     return to + count;
   }
-  text.put(to, 1);
+  put_digits(digits, count, 1, to);
   to += count + (count > 1 ? 1 : 0);
   int power = whole - 1;
   *to++ = 'e';

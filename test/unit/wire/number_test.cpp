@@ -1,6 +1,8 @@
 // Numbers in text: shortest, exact, and the same in every locale.
 #include <gmock/gmock.h>
 
+#include <array>
+#include <charconv>
 #include <clocale>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +16,7 @@
 
 #include "records.h"
 #include "trk_bridge/wire/codec.h"
+#include "wire/shortest.h"
 
 namespace trk_bridge::wire {
 namespace {
@@ -69,6 +72,89 @@ TEST(Numbers, AnyDoubleReadsBackFromTheShortestText) {
     ASSERT_EQ(bits_of(*read), bits) << word;
     ASSERT_EQ(bits_of(std::strtod(word.c_str(), nullptr)), bits) << word;
     ASSERT_LE(word.size(), shortest_scientific(value).size()) << word;
+  }
+}
+
+/// Numbers of the sizes that records have, with up to 17 digits, some of them whole or 0.
+double likely_number(std::mt19937_64& random) {
+  const double value =
+      std::uniform_real_distribution<double>(-200, 200)(random) * std::pow(10.0, static_cast<int>(random() % 24) - 12);
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*g", static_cast<int>(random() % 17) + 1, value);
+  switch (random() % 8) {
+    case 0:
+      return std::trunc(value);
+    case 1:
+      return std::copysign(0.0, value);
+    case 2:
+      return value;
+    default:
+      return std::strtod(text, nullptr);
+  }
+}
+
+TEST(Numbers, AreReadAsStrtodReadsThem) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 300000; ++i) {
+    const double value = likely_number(random);
+    // %g and %e as the field prints, more digits than a double has, and the value in full, which is often half-way
+    // between two others when the last digit is taken off.
+    const char* const format = std::array{"%.*g", "%.*e", "%.*f"}[random() % 3];
+    char word[400];
+    std::snprintf(word, sizeof word, format, static_cast<int>(random() % 26), value);
+    const auto read = read_pan(word);
+    ASSERT_TRUE(read) << word;
+    ASSERT_EQ(bits_of(*read), bits_of(std::strtod(word, nullptr))) << word;
+  }
+}
+
+TEST(Numbers, HalfWayBetweenTwoDoubles) {
+  std::mt19937_64 random(11);
+  for (int i = 0; i < 100000; ++i) {
+    // An odd number of 54 bits, which no double is, and what is just below and above.
+    const std::uint64_t half_way = (std::uint64_t{1} << 53U | random() >> 11U) | 1U;
+    const std::uint64_t whole = half_way + random() % 3 - 1;
+    for (const char* const behind : {"", ".", ".0", "e0", "e-5", "e5", "e-23"}) {
+      const std::string word = std::to_string(whole) + behind;
+      const auto read = read_pan(word);
+      ASSERT_TRUE(read) << word;
+      ASSERT_EQ(bits_of(*read), bits_of(std::strtod(word.c_str(), nullptr))) << word;
+    }
+  }
+}
+
+TEST(Numbers, AreWrittenAsToCharsWritesThem) {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 500000; ++i) {
+    const std::uint64_t bits = random();
+    double value;
+    std::memcpy(&value, &bits, sizeof value);
+    if (!std::isfinite(value) || i % 4 != 0) value = likely_number(random);
+    char text[64];
+    const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+    char written[number_room];
+    ASSERT_EQ(std::string(written, write_shortest(value, written)), std::string(text, end));
+  }
+}
+
+/// The one encoded with a memory must be the one encoded without.
+TEST(Numbers, RememberedTextsAreThoseOfTheSameNumbers) {
+  std::mt19937_64 random(5);
+  TextMemory memory;
+  CameraParams p;
+  const auto change = [&random](double& number) {
+    if (random() % 2 == 0) number = likely_number(random);
+  };
+  for (int i = 0; i < 20000; ++i) {
+    p.format = random() % 4 == 0 ? std::uint32_t{0} : std::uint32_t{euler};
+    p.id = static_cast<std::uint32_t>(random() % 3);
+    for (double& number : p.matrix) change(number);
+    for (double* const number : {&p.euler.x, &p.euler.y, &p.euler.pan, &p.fov, &p.k1, &p.focdist, &p.aperture}) {
+      change(*number);
+    }
+    ++p.counter;
+    Buffer buffer, expected;
+    ASSERT_EQ(encode(p, {}, buffer, memory).value_or("refused"), encode(p, {}, expected).value()) << i;
   }
 }
 
