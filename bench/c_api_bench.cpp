@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
@@ -39,7 +40,6 @@ void two_copies_of_200_bytes(benchmark::State& state) {
     benchmark::DoNotOptimize(c);
   }
 }
-BENCHMARK(two_copies_of_200_bytes);
 
 void memory_write_and_read(benchmark::State& state) {
   trkHandle writer = nullptr, reader = nullptr;
@@ -53,7 +53,8 @@ void memory_write_and_read(benchmark::State& state) {
   }
   trkMemCloseAll();
 }
-BENCHMARK(memory_write_and_read);
+BENCHMARK(memory_write_and_read)->Name("BM_c_api_memory/ours");
+BENCHMARK(two_copies_of_200_bytes)->Name("BM_c_api_memory/peer");
 
 void memory_nothing_new(benchmark::State& state) {
   trkHandle reader = nullptr, writer = nullptr;
@@ -63,7 +64,7 @@ void memory_nothing_new(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(trkMemReadParams(reader, &got));
   trkMemCloseAll();
 }
-BENCHMARK(memory_nothing_new);
+BENCHMARK(memory_nothing_new)->Name("BM_c_api_memory_nothing_new");
 
 /// A port of the loopback that nobody has.
 std::uint16_t free_port() {
@@ -78,23 +79,58 @@ std::uint16_t free_port() {
   return ntohs(address.sin_port);
 }
 
-void two_bare_system_calls(benchmark::State& state) {
-  const int out = ::socket(AF_INET, SOCK_DGRAM, 0), in = ::socket(AF_INET, SOCK_DGRAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  address.sin_port = htons(free_port());
-  if (::bind(in, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) std::abort();
-  if (::connect(out, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) std::abort();
-  char bytes[208] = {}, received[4096];
-  for (auto _ : state) {
-    if (::send(out, bytes, sizeof bytes, 0) != sizeof bytes) std::abort();
-    if (::recv(in, received, sizeof received, 0) != sizeof bytes) std::abort();
+/// A datagram sent to a port of this machine and received there by two system calls, with nothing before and behind.
+class BareSockets {
+ public:
+  BareSockets() {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(free_port());
+    if (::bind(in_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) std::abort();
+    if (::connect(out_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) std::abort();
   }
-  ::close(out);
-  ::close(in);
+  ~BareSockets() {
+    ::close(out_);
+    ::close(in_);
+  }
+  BareSockets(const BareSockets&) = delete;
+  BareSockets& operator=(const BareSockets&) = delete;
+
+  void pass(const char* bytes, std::size_t size, char (&received)[4096]) {
+    if (::send(out_, bytes, size, 0) != static_cast<ssize_t>(size)) std::abort();
+    if (::recv(in_, received, sizeof received, 0) != static_cast<ssize_t>(size)) std::abort();
+  }
+
+ private:
+  const int out_ = ::socket(AF_INET, SOCK_DGRAM, 0), in_ = ::socket(AF_INET, SOCK_DGRAM, 0);
+};
+
+void two_bare_system_calls(benchmark::State& state) {
+  BareSockets sockets;
+  char bytes[208] = {}, received[4096];
+  for (auto _ : state) sockets.pass(bytes, sizeof bytes, received);
 }
-BENCHMARK(two_bare_system_calls);
+
+/// ASCII as the field prints and reads it, between the same two system calls.
+void bare_ascii(benchmark::State& state) {
+  BareSockets sockets;
+  char text[4096] = "DMC01\0PA", received[4096];
+  trkCameraParams p = params(), got{};
+  for (auto _ : state) {
+    ++p.counter;
+    const auto& e = p.t.e;
+    const int size =
+        std::sprintf(text + 8, "%X %g %g %g %g %g %g %g %e %e %e %e %g %g %lu", p.format, e.x, e.y, e.z, e.pan, e.tilt,
+                     e.roll, p.fov, p.centerX, p.centerY, p.k1, p.k2, p.focdist, p.aperture, p.counter);
+    sockets.pass(text, static_cast<std::size_t>(8 + size + 1), received);
+    auto& r = got.t.e;
+    const int read = std::sscanf(received + 8, "%x %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lf %lu",
+                                 &got.format, &r.x, &r.y, &r.z, &r.pan, &r.tilt, &r.roll, &got.fov, &got.centerX,
+                                 &got.centerY, &got.k1, &got.k2, &got.focdist, &got.aperture, &got.counter);
+    if (read != 15) std::abort();
+  }
+}
 
 /// What trkNet asks of the system beside that: no receiver that went away fails the next datagram, so that the sender
 /// is not connected; either family; and with a datagram its sender and the kernel's time.
@@ -125,7 +161,7 @@ void two_bare_system_calls_with_sender_and_time(benchmark::State& state) {
   ::close(out);
   ::close(in);
 }
-BENCHMARK(two_bare_system_calls_with_sender_and_time);
+BENCHMARK(two_bare_system_calls_with_sender_and_time)->Name("BM_c_api_two_system_calls_with_sender_and_time");
 
 void network(benchmark::State& state, int binary) {
   const int port = free_port();
@@ -141,10 +177,13 @@ void network(benchmark::State& state, int binary) {
   require(trkNetClose(writer));
   require(trkNetClose(reader));
 }
-void binary_datagram_write_and_read(benchmark::State& state) { network(state, 1); }
-BENCHMARK(binary_datagram_write_and_read);
-void ascii_datagram_write_and_read(benchmark::State& state) { network(state, 0); }
-BENCHMARK(ascii_datagram_write_and_read);
+void binary(benchmark::State& state) { network(state, 1); }
+void ascii(benchmark::State& state) { network(state, 0); }
+
+BENCHMARK(binary)->Name("BM_c_api_binary_datagram/ours");
+BENCHMARK(two_bare_system_calls)->Name("BM_c_api_binary_datagram/peer");
+BENCHMARK(ascii)->Name("BM_c_api_ascii_datagram/ours");
+BENCHMARK(bare_ascii)->Name("BM_c_api_ascii_datagram/peer");
 
 }  // namespace
 

@@ -29,7 +29,7 @@ function(trk_bridge_library name)
   # Other projects include its headers, and their compiler may begin with an older C++.
   target_compile_features(${name} PUBLIC cxx_std_17)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} trk_bridge_options)
-  set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN" VISIBILITY_INLINES_HIDDEN ON)
+  set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN")
   set(export)
   if(ARG_EXPORT_AS)
     add_library(trk_bridge::${ARG_EXPORT_AS} ALIAS ${name})
