@@ -158,6 +158,7 @@ ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings)
     header.msg_iovlen = 1;
     header.msg_name = &senders_[i];
     if (settings.has_arrivals) header.msg_control = controls_[i].data;
+    prepare(header);
   }
   if (watch_) watch_->start([this](const InterfaceWatch::Removed& removed) { return follow_or_say_why(removed); });
 }
@@ -266,14 +267,18 @@ std::uint64_t ReceiveSocket::kernel_drops() const noexcept {
   return earlier_drops_ + dropped_by_kernel(socket_.get()).value_or(0);
 }
 
+void ReceiveSocket::prepare(msghdr& header) const noexcept {
+  header.msg_namelen = sizeof(sockaddr_storage);
+  header.msg_controllen = settings_.has_arrivals ? sizeof(Control) : 0;
+}
+
 int ReceiveSocket::fill(bool waits) noexcept {
-  for (auto& header : headers_) {
-    header.msg_hdr.msg_namelen = sizeof(sockaddr_storage);
-    header.msg_hdr.msg_controllen = settings_.has_arrivals ? sizeof(Control) : 0;
-  }
+  // Those that the last call wrote to.
+  for (std::size_t i = 0; i < count_; ++i) prepare(headers_[i].msg_hdr);
   const int came = ::recvmmsg(socket_.get(), headers_.data(), batch, waits ? MSG_WAITFORONE : MSG_DONTWAIT, nullptr);
   // The end of a wait looks like an empty datagram that nobody sent.
   if (came > 0 && headers_[0].msg_hdr.msg_namelen == 0) {
+    prepare(headers_[0].msg_hdr);
     errno = EAGAIN;
     return -1;
   }

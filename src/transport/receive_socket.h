@@ -103,6 +103,7 @@ class ReceiveSocket {
   void follow_interfaces(const InterfaceWatch::Removed& removed);
   bool follow_or_say_why(const InterfaceWatch::Removed& removed);
 
+  void prepare(msghdr& header) const noexcept;
   int fill(bool waits) noexcept;
   std::int64_t arrival(std::size_t i) noexcept;
   bool is_allowed(const Sender&) const noexcept;
