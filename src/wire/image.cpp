@@ -21,7 +21,8 @@ void for_each_number(const CameraParams& p, Visit&& visit) noexcept {
   if (has(p.format, euler)) {
     for_each_euler_field(from(transform_place), p.euler);
   } else {
-    for (std::size_t i = 0; i < p.matrix.size(); ++i) visit(matrix_place(i), p.matrix[i]);
+#pragma GCC unroll 16
+    for (std::size_t i = 0; i < 16; ++i) visit(matrix_place(i), p.matrix[i]);
   }
   for_each_lens_field(from(lens_place(p.format)), p);
 }
@@ -111,8 +112,7 @@ void store_record(const CameraParams& p, const Layout& layout, char* image) noex
     for_each_euler_field(store_to<order>(image + shape.transform), p.euler);
     zero(shape.transform + sizeof p.euler, shape.lens);
   } else {
-    auto store_next = store_to<order>(image + shape.transform);
-    for (const double value : p.matrix) store_next({}, value);
+    store_doubles(p.matrix, image + shape.transform, order);
   }
   for_each_lens_field(store_to<order>(image + shape.lens), p);
   if (shape.counter_width == 8) {

@@ -81,7 +81,9 @@ bool transform_fits(std::string_view image, const Layout& layout, std::uint32_t 
   constexpr std::size_t lens_numbers_before_focus = 5;
   const auto lens = load_doubles<lens_numbers_before_focus>(image.data() + shape.lens, layout.byte_order);
   bool plausible = true;
+#pragma GCC unroll 6
   for (std::size_t i = 0; i < euler_numbers; ++i) plausible &= is_plausible(matrix[i]);
+#pragma GCC unroll 5
   for (const double number : lens) plausible &= is_plausible(number);
   return plausible;
 }
@@ -105,7 +107,7 @@ struct Words {
   std::uint32_t first, second, id, format;
 };
 
-Words words_of(std::string_view image, const Layout& layout) noexcept {
+inline Words words_of(std::string_view image, const Layout& layout) noexcept {
   const auto first = load<std::uint32_t>(image.data(), layout.byte_order);
   const auto second = load<std::uint32_t>(image.data() + 4, layout.byte_order);
   return layout.generation == Generation::identified ? Words{first, second, first, second}

@@ -99,4 +99,13 @@ void store(Number value, char* to, ByteOrder order) noexcept {
   std::memcpy(to, &bits, sizeof bits);
 }
 
+template <std::size_t n>
+void store_doubles(const std::array<double, n>& values, char* to, ByteOrder order) noexcept {
+  if (order == native_order) {
+    std::memcpy(to, values.data(), sizeof values);
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) store(values[i], to + i * sizeof(double), order);
+}
+
 }  // namespace trk_bridge::wire
