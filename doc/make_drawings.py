@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Draws every picture of doc/images that is a drawing or a plot, from the equations of doc/conventions.md and the
-tables that doc/lens_fit.cpp and doc/stamp_figures.py measure.
+tables that doc/lens_fit.cpp, doc/stamp_figures.py and scripts/bench measure.
 
 Usage: make_drawings.py [--check]. Without an argument the pictures are written; with --check none is, and those that are
 not what would be written are an error. Needs nothing but Python.
@@ -9,7 +9,7 @@ not what would be written are an error. Needs nothing but Python.
 import pathlib
 import sys
 
-from drawings import lens_plot, picture_plane, rooms, stamp_plot, studio
+from drawings import lens_plot, picture_plane, rooms, speed_plot, stamp_plot, studio
 
 IMAGES = pathlib.Path(__file__).resolve().parent / "images"
 PICTURES = {
@@ -23,6 +23,7 @@ PICTURES = {
     "lens_fit_back.svg": lens_plot.back,
     "rooms.svg": rooms.rooms,
     "stamps.svg": stamp_plot.stamps,
+    "speed.svg": speed_plot.speed,
 }
 
 
