@@ -29,13 +29,15 @@ tl::expected<std::string_view, Fault> encode_record(const T& record, WireForm fo
                                                     Memory&... memory) noexcept {
   const bool ascii = form.encoding == Encoding::ascii;
   char* const payload = buffer.data() + header_size;
-  const auto size = ascii ? write_text(record, payload, memory...) : write_image(record, form.layout, payload);
-  if (!size) return tl::unexpected(size.error());
+  Fault fault{};
+  const std::size_t size =
+      ascii ? write_text(record, payload, fault, memory...) : write_image(record, form.layout, payload, fault);
+  if (size == 0) return tl::unexpected(fault);
   std::copy(magic.begin(), magic.end(), buffer.begin());
   buffer[type_at] = type_of(record);
   buffer[encoding_at] = ascii ? 'A' : 'B';
-  if (ascii) payload[*size] = '\0';
-  return std::string_view(buffer.data(), header_size + *size + (ascii ? 1 : 0));
+  if (ascii) payload[size] = '\0';
+  return std::string_view(buffer.data(), header_size + size + (ascii ? 1 : 0));
 }
 
 /// Of what `read` reads, a copy.
@@ -47,10 +49,13 @@ tl::expected<T, Fault> record_of(Read&& read) noexcept {
   return record;
 }
 
-/// What was written into a buffer.
-tl::expected<std::string_view, Fault> view_of(const Buffer& buffer, tl::expected<std::size_t, Fault> size) noexcept {
-  if (!size) return tl::unexpected(size.error());
-  return std::string_view(buffer.data(), *size);
+/// What `write` writes into the buffer.
+template <class Write>
+tl::expected<std::string_view, Fault> written_to(Buffer& buffer, Write&& write) noexcept {
+  Fault fault{};
+  const std::size_t size = write(buffer.data(), fault);
+  if (size == 0) return tl::unexpected(fault);
+  return std::string_view(buffer.data(), size);
 }
 
 }  // namespace
@@ -110,16 +115,16 @@ tl::expected<std::string_view, Fault> encode(const CameraConstants& constants, W
 }
 
 tl::expected<std::string_view, Fault> to_text(const CameraParams& p, Buffer& buffer) noexcept {
-  return view_of(buffer, write_text(p, buffer.data()));
+  return written_to(buffer, [&](char* to, Fault& fault) { return write_text(p, to, fault); });
 }
 tl::expected<std::string_view, Fault> to_text(const CameraConstants& c, Buffer& buffer) noexcept {
-  return view_of(buffer, write_text(c, buffer.data()));
+  return written_to(buffer, [&](char* to, Fault& fault) { return write_text(c, to, fault); });
 }
 tl::expected<std::string_view, Fault> to_image(const CameraParams& p, Layout layout, Buffer& buffer) noexcept {
-  return view_of(buffer, write_image(p, layout, buffer.data()));
+  return written_to(buffer, [&](char* to, Fault& fault) { return write_image(p, layout, to, fault); });
 }
 tl::expected<std::string_view, Fault> to_image(const CameraConstants& c, Layout layout, Buffer& buffer) noexcept {
-  return view_of(buffer, write_image(c, layout, buffer.data()));
+  return written_to(buffer, [&](char* to, Fault& fault) { return write_image(c, layout, to, fault); });
 }
 
 tl::expected<CameraParams, Fault> params_from_text(std::string_view text) noexcept {

@@ -162,11 +162,15 @@ bool read(std::string_view image, const Layout& layout, Record& into, Fault& fau
 }
 
 template <class Record>
-tl::expected<std::size_t, Fault> write(const Record& record, const Layout& layout, char* to) noexcept {
-  if (!is_finite(record)) return tl::unexpected(not_finite(record));
+std::size_t write(const Record& record, const Layout& layout, char* to, Fault& fault) noexcept {
+  if (!is_finite(record)) {
+    fault = not_finite(record);
+    return 0;
+  }
   if constexpr (std::is_same_v<Record, CameraParams>) {
     if (!counter_fits(record, layout)) {
-      return tl::unexpected(about_field(Reason::out_of_range, counter_place(record.format)));
+      fault = about_field(Reason::out_of_range, counter_place(record.format));
+      return 0;
     }
   }
   const std::size_t size = size_of(record, layout);
@@ -186,11 +190,11 @@ bool read_image(std::string_view image, const Layout& layout, CameraParams& into
 bool read_image(std::string_view image, const Layout& layout, CameraConstants& into, Fault& fault) noexcept {
   return read(image, layout, into, fault);
 }
-tl::expected<std::size_t, Fault> write_image(const CameraParams& p, const Layout& layout, char* to) noexcept {
-  return write(p, layout, to);
+std::size_t write_image(const CameraParams& p, const Layout& layout, char* to, Fault& fault) noexcept {
+  return write(p, layout, to, fault);
 }
-tl::expected<std::size_t, Fault> write_image(const CameraConstants& c, const Layout& layout, char* to) noexcept {
-  return write(c, layout, to);
+std::size_t write_image(const CameraConstants& c, const Layout& layout, char* to, Fault& fault) noexcept {
+  return write(c, layout, to, fault);
 }
 
 }  // namespace trk_bridge::wire

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <string_view>
 
-#include <tl/expected.hpp>
-
 #include "trk_bridge/wire/codec.h"
 #include "trk_bridge/wire/format.h"
 
@@ -15,18 +13,18 @@ namespace trk_bridge::wire {
 inline constexpr std::size_t payload_room = max_datagram - header_size;
 
 /// Reads all fields of `into`. False: `fault` says why, and `into` is any record. (A tl::expected of a few bytes takes
-/// longer to return than a binary record to read: it is written by bytes and read as a word.)
+/// longer to return than a binary record to read: it is written by bytes and read as words.)
 [[nodiscard]] bool read_text(std::string_view text, CameraParams& into, Fault& fault) noexcept;
 [[nodiscard]] bool read_text(std::string_view text, CameraConstants& into, Fault& fault) noexcept;
 [[nodiscard]] bool read_image(std::string_view image, const Layout&, CameraParams& into, Fault& fault) noexcept;
 [[nodiscard]] bool read_image(std::string_view image, const Layout&, CameraConstants& into, Fault& fault) noexcept;
 
-/// Write up to `payload_room` bytes and return how many.
-[[nodiscard]] tl::expected<std::size_t, Fault> write_text(const CameraParams&, char* to) noexcept;
-[[nodiscard]] tl::expected<std::size_t, Fault> write_text(const CameraParams&, char* to, TextMemory&) noexcept;
-[[nodiscard]] tl::expected<std::size_t, Fault> write_text(const CameraConstants&, char* to) noexcept;
-[[nodiscard]] tl::expected<std::size_t, Fault> write_image(const CameraParams&, const Layout&, char* to) noexcept;
-[[nodiscard]] tl::expected<std::size_t, Fault> write_image(const CameraConstants&, const Layout&, char* to) noexcept;
+/// Write up to `payload_room` bytes and return how many. 0: `fault` says why.
+[[nodiscard]] std::size_t write_text(const CameraParams&, char* to, Fault& fault) noexcept;
+[[nodiscard]] std::size_t write_text(const CameraParams&, char* to, Fault& fault, TextMemory&) noexcept;
+[[nodiscard]] std::size_t write_text(const CameraConstants&, char* to, Fault& fault) noexcept;
+[[nodiscard]] std::size_t write_image(const CameraParams&, const Layout&, char* to, Fault& fault) noexcept;
+[[nodiscard]] std::size_t write_image(const CameraConstants&, const Layout&, char* to, Fault& fault) noexcept;
 
 /// Makes what the format does not select of the transform zero.
 inline void clear_unselected(CameraParams& p) noexcept {

@@ -147,9 +147,10 @@ class TextWriter {
     return [this, place](const Field&, auto value) mutable { number(place++, value); };
   }
 
-  tl::expected<std::size_t, Fault> finish() const noexcept {
-    if (fault_) return tl::unexpected(*fault_);
-    return static_cast<std::size_t>(at_ - begin_);
+  /// How much was written; 0 where there was a fault, the first.
+  std::size_t finish(Fault& fault) const noexcept {
+    if (fault_) fault = *fault_;
+    return fault_ ? 0 : static_cast<std::size_t>(at_ - begin_);
   }
 
  private:
@@ -191,7 +192,7 @@ bool read_text(std::string_view text, CameraConstants& into, Fault& fault) noexc
 
 namespace {
 
-tl::expected<std::size_t, Fault> write_params(const CameraParams& p, TextWriter&& writer) noexcept {
+std::size_t write_params(const CameraParams& p, TextWriter&& writer, Fault& fault) noexcept {
   writer.id(p.id);
   writer.format(p.format);
   if (has(p.format, euler)) {
@@ -203,25 +204,25 @@ tl::expected<std::size_t, Fault> write_params(const CameraParams& p, TextWriter&
   }
   for_each_lens_field(writer.numbers_from(lens_place(p.format)), p);
   writer.number(counter_place(p.format), p.counter);
-  return writer.finish();
+  return writer.finish(fault);
 }
 
 }  // namespace
 
-tl::expected<std::size_t, Fault> write_text(const CameraParams& p, char* to) noexcept {
-  return write_params(p, TextWriter(to));
+std::size_t write_text(const CameraParams& p, char* to, Fault& fault) noexcept {
+  return write_params(p, TextWriter(to), fault);
 }
 
-tl::expected<std::size_t, Fault> write_text(const CameraParams& p, char* to, TextMemory& memory) noexcept {
-  return write_params(p, TextWriter(to, &memory));
+std::size_t write_text(const CameraParams& p, char* to, Fault& fault, TextMemory& memory) noexcept {
+  return write_params(p, TextWriter(to, &memory), fault);
 }
 
-tl::expected<std::size_t, Fault> write_text(const CameraConstants& c, char* to) noexcept {
+std::size_t write_text(const CameraConstants& c, char* to, Fault& fault) noexcept {
   TextWriter writer(to);
   writer.id(c.id);
   for_each_image_field(writer.numbers_from(image_place), c);
   for_each_chip_field(writer.numbers_from(chip_place), c);
-  return writer.finish();
+  return writer.finish(fault);
 }
 
 }  // namespace trk_bridge::wire
