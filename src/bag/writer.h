@@ -53,7 +53,7 @@ class Writer {
 
  private:
   using Bytes = std::vector<std::uint8_t>;
-  static constexpr std::size_t chunk_size = 768 * 1024;
+  static constexpr std::size_t chunk_size = std::size_t{768} << 10U;
 
   struct Entry {
     ::ros::Time time;

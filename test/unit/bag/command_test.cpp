@@ -1,4 +1,6 @@
 // trk bag as its users run it.
+#include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -89,6 +91,17 @@ TEST_F(OnAFullDisk, ATakeIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(run_with_room("100k", other / "x.bag" + " x.trk"), 1);
   EXPECT_THAT(err_text, HasSubstr("x.trk: cannot be written: the system refused: No space left on device"));
   EXPECT_EQ(left, "");
+}
+
+TEST_F(BagCommandTest, ALineThatIsNotSoundIsAnErrorAndLeavesNothing) {
+  const std::string bad = directory / "bad.trk";
+  test::write_text(bad, test::read_text(take) + "oops\n");
+  const std::string text = test::read_text(bad);
+  const auto lines = std::to_string(std::count(text.begin(), text.end(), '\n'));
+  EXPECT_EQ(run({bad, bag}), 1);
+  EXPECT_THAT(err_text, HasSubstr(bad + ":" + lines + ": field 1 is not"));
+  EXPECT_FALSE(std::filesystem::exists(bag));
+  EXPECT_FALSE(std::filesystem::exists(bag + ".part"));
 }
 
 TEST_F(BagCommandTest, WrongOptionsAreUsageErrors) {

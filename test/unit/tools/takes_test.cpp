@@ -66,5 +66,24 @@ TEST(Takes, OneThatIsCutIsUsedToItsLastWholeLineWithAWarning) {
   EXPECT_EQ(file::read_take(copy).params.size(), fields);
 }
 
+TEST(Takes, ALineThatIsNotSoundIsAnErrorThatNamesItWhereverItStands) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory / "bad.trk", copy = directory / "copy.trk";
+  std::string text = test::read_text(test::data_path("field/takes/euler.trk"));
+  // Line 2000, of 2262 and some comments.
+  std::size_t at = 0;
+  for (int line = 1; line < 2000; ++line) at = text.find('\n', at) + 1;
+  test::write_text(path, text.insert(at, "oops "));
+  const std::string source = "file:" + path + "?speed=0";
+  for (const auto& command :
+       std::vector<std::vector<std::string>>{{TRK_TOOL, "dump", source}, {TRK_TOOL, "relay", source, "file:" + copy}}) {
+    test::Program program(command);
+    program.rest_of_out();
+    const std::string err = program.rest_of_err();
+    EXPECT_THAT(err, HasSubstr("trk: error: " + path + ":2000: field 1 is not"));
+    EXPECT_EQ(program.wait(), 1) << err;
+  }
+}
+
 }  // namespace
 }  // namespace trk_bridge
