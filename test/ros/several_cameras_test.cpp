@@ -1,6 +1,10 @@
 // Several cameras in one node, and sources other than UDP.
 #include <trk_bridge/CameraParams.h>
 
+#include <algorithm>
+#include <map>
+#include <string>
+
 #include "fixture.h"
 #include "free_slot.h"
 #include "node_process.h"
@@ -56,6 +60,43 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
   EXPECT_TRUE(diagnostics.becomes(status_name("crane2"), "unknown ids", "3"));
   EXPECT_TRUE(diagnostics.becomes(status_name("pedestal"), "constants known", "from the parameter"));
   EXPECT_TRUE(sink->close());
+}
+
+TEST_F(SeveralCameras, OfTwoHundredAndFiftySixThatSendTogetherNoneLosesATransform) {
+  constexpr int count = 256, bursts = 10;
+  const auto frame = [](int i) { return "many" + std::to_string(i); };
+  XmlRpc::XmlRpcValue tree;
+  tree["source"] = any_udp_port;
+  tree["publish_camera_info"] = false;
+  tree["diagnostic_period"] = 0.5;
+  for (int i = 1; i <= count; ++i) {
+    tree["cameras"][frame(i)]["id"] = i;
+    tree["cameras"][frame(i)]["camera_frame"] = frame(i);
+  }
+  ::ros::param::set(node_name, tree);
+  Recorder<tf2_msgs::TFMessage> tf("/tf");
+  ASSERT_TRUE(starts(frame(1)));
+  ASSERT_TRUE(reports_on(frame(count)));
+  const Tracker tracker(port(frame(1)));
+  const auto transforms = [&] {
+    std::map<std::string, int> of_frame;
+    for (const auto& message : tf.messages) {
+      for (const auto& transform : message.transforms) ++of_frame[transform.child_frame_id];
+    }
+    return of_frame;
+  };
+  for (int burst = 1; burst <= bursts; ++burst) {
+    for (int i = 1; i <= count; ++i) {
+      tracker.send(test::params(static_cast<std::uint64_t>(burst), static_cast<std::uint32_t>(i)));
+    }
+    ASSERT_TRUE(eventually([&] {
+      const auto of_frame = transforms();
+      return of_frame.size() == count &&
+             std::all_of(of_frame.begin(), of_frame.end(), [burst](const auto& one) { return one.second == burst; });
+    })) << "burst "
+        << burst;
+  }
+  EXPECT_EQ(diagnostics.value(status_name(frame(1)), "kernel drops"), "0");
 }
 
 class AtTheEndOfATake : public NodeProcessTest {

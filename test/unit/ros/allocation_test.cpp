@@ -1,4 +1,5 @@
-// The whole way of a sample, in and out, but for what roscpp does between: nothing of it allocates.
+// The whole way of a sample, in and out, but for what roscpp does between: nothing of it allocates, and a set is one
+// system call.
 #include <gmock/gmock.h>
 
 #include "allocations.h"
@@ -6,6 +7,7 @@
 #include "bridge/outlet_writer.h"
 #include "bridge/params_to_trk.h"
 #include "ros/camera_messages.h"
+#include "system_calls.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/ros/messages.h"
 #include "trk_bridge/wire/format.h"
@@ -56,29 +58,61 @@ TEST(Allocation, DoesNotHappenFromADatagramToMessages) {
   EXPECT_EQ(count, 0u);
 }
 
+/// From messages to a UDP port, as ros_to_trk does it.
+class WayOut {
+ public:
+  explicit WayOut(int port)
+      : endpoint_(*endpoints::parse_sink("udp://127.0.0.1:" + std::to_string(port) + "?format=euler+field_of_view")),
+        writer_(endpoint_.open(), endpoint_.form, bridge::Feed::one_camera) {
+    trk_bridge::CameraConstants message;
+    to_msg(constants(), message);
+    sets_.use(from_msg(message));
+    // Its camera id is new.
+    write(0);
+  }
+
+  void write(int i) {
+    to_msg(params(i), message_);
+    const auto set = sets_.use(from_msg(message_), std::int64_t{i});
+    if (set.constants) writer_.write(*set.constants);
+    writer_.write(set.params);
+  }
+  std::uint64_t sent() const { return writer_.statistics().sent.params; }
+
+ private:
+  const transport::SinkEndpoint endpoint_;
+  bridge::OutletWriter writer_;
+  bridge::ParamsToTrk sets_;
+  trk_bridge::CameraParams message_;
+};
+
 TEST(Allocation, DoesNotHappenFromAMessageToADatagram) {
   const test::PlainSocket receiver;
-  const auto endpoint =
-      *endpoints::parse_sink("udp://127.0.0.1:" + std::to_string(receiver.port()) + "?format=euler+field_of_view");
-  bridge::OutletWriter writer(endpoint.open(), endpoint.form, bridge::Feed::one_camera);
-  bridge::ParamsToTrk sets;
-  trk_bridge::CameraConstants constants_message;
-  to_msg(constants(), constants_message);
-  trk_bridge::CameraParams params_message;
-  sets.use(from_msg(constants_message));
-  const auto write = [&](int i) {
-    to_msg(params(i), params_message);
-    const auto set = sets.use(from_msg(params_message), std::int64_t{i});
-    if (set.constants) writer.write(*set.constants);
-    writer.write(set.params);
-  };
-  // A camera id is met.
-  write(0);
+  WayOut way(receiver.port());
   EXPECT_EQ(test::allocations_of([&] {
-              for (int i = 1; i <= fields; ++i) write(i);
+              for (int i = 1; i <= fields; ++i) way.write(i);
             }),
             0u);
-  EXPECT_EQ(writer.statistics().sent.params, fields + 1u);
+  EXPECT_EQ(way.sent(), fields + 1u);
+}
+
+TEST(SystemCalls, OneFromAMessageToADatagram) {
+  bool is_permitted = true;
+  const auto calls = test::system_calls_of(
+      [](const auto& counted) {
+        const test::PlainSocket receiver;
+        WayOut way(receiver.port());
+        counted([&] {
+          for (int i = 1; i <= fields; ++i) way.write(i);
+        });
+        return way.sent() == fields + 1u;
+      },
+      is_permitted);
+  if (!is_permitted) GTEST_SKIP() << "no process may be traced here";
+  ASSERT_TRUE(calls);
+  // Constants are repeated once a second.
+  EXPECT_GE(test::total(*calls), fields);
+  EXPECT_LE(test::total(*calls), fields + 5);
 }
 
 }  // namespace
