@@ -101,6 +101,7 @@ void Cadence::found(std::int64_t now, unsigned sets) noexcept {
   // half way: clocks of writers are steady, but those that sleep from set to set are not.
   const double moved = !is_stray ? written - error / 2 : strays_ < most_strays ? written - error : written;
   if (!is_stray) period_ += (interval / periods - period_) / (tracked_ + 1);
+  if (period_ < shortest_sleep) return forget();
   if (strays_ == most_strays) strays_ = 0;
   last_found_ = now + static_cast<std::int64_t>(is_stray ? moved : written);
   expected_ = moved + period_;
@@ -113,7 +114,7 @@ void Cadence::learn(std::int64_t now, unsigned sets) noexcept {
   const double interval = static_cast<double>(written - last_found_) / sets;
   const double uncertainty = std::max(half, least_deviation);
   const bool is_exact = has_found_ && uncertainty + uncertainty_ < interval / 2;
-  if (is_exact && interval_ > 0) {
+  if (is_exact && interval_ > 0 && interval + interval_ > 2 * shortest_sleep) {
     period_ = (interval + interval_) / 2;
     deviation_ = std::min(std::abs(interval - interval_) / 2 + uncertainty, period_ / 4);
     expected_ = period_ - half;
@@ -160,7 +161,7 @@ std::int64_t Cadence::next(std::int64_t now) noexcept {
     }
   }
   before_ = sleep == 0 ? Before::nothing : sleep < long_sleep ? Before::short_sleep : Before::sleep;
-  planned_ = now + static_cast<std::int64_t>(sleep);
+  planned_ = now + std::min(static_cast<std::int64_t>(sleep), slowest);
   return planned_;
 }
 

@@ -183,6 +183,14 @@ TEST(Cadence, a_writer_that_stops_is_looked_for_ten_times_a_second) {
   EXPECT_GE(met.looks, 9 * met.seconds);
 }
 
+TEST(Cadence, whatever_the_rate_is_there_are_looks) {
+  for (const double rate : {0.1, 1.0, 5.0, 5000.0, 50000.0}) {
+    const auto met = read(writes(rate, 0, Keeps::clock, rate < 1 ? 100 : 10));
+    EXPECT_GE(met.looks, 9 * met.seconds) << rate;
+    EXPECT_LE(met.share(), rate < 1000 ? 0.015 : 0.1) << rate;
+  }
+}
+
 TEST(Cadence, two_writers_are_both_seen) {
   std::vector<std::int64_t> written;
   for (std::int64_t i = 0; i < 1000; ++i) {
