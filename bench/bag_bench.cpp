@@ -77,7 +77,7 @@ void take_to_bag(benchmark::State& state) {
   for (auto _ : state) make_bag(takes().path("take.bag"));
   end(state);
 }
-BENCHMARK(take_to_bag)->Name("BM_TakeToBag/ours")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(take_to_bag)->Name("BM_TakeToBag/ours")->Unit(benchmark::kMillisecond);
 
 /// The same four messages a field, ready but for their stamp. It reads no take, converts nothing, and does not bring
 /// the file to the disk.
@@ -111,7 +111,7 @@ void messages_to_bag(benchmark::State& state) {
   }
   end(state);
 }
-BENCHMARK(messages_to_bag)->Name("BM_TakeToBag/peer")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(messages_to_bag)->Name("BM_TakeToBag/peer")->Unit(benchmark::kMillisecond);
 
 void read_bag(benchmark::State& state, Input input) {
   make_bag(takes().path("take.bag"));
@@ -126,9 +126,9 @@ void read_bag(benchmark::State& state, Input input) {
   end(state);
 }
 void bag_to_take(benchmark::State& state) { read_bag(state, Input::params); }
-BENCHMARK(bag_to_take)->Name("BM_BagToTake/ours")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(bag_to_take)->Name("BM_BagToTake/ours")->Unit(benchmark::kMillisecond);
 void bag_of_tf_to_take(benchmark::State& state) { read_bag(state, Input::tf); }
-BENCHMARK(bag_of_tf_to_take)->Name("BM_BagOfTfToTake/ours")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(bag_of_tf_to_take)->Name("BM_BagOfTfToTake/ours")->Unit(benchmark::kMillisecond);
 
 /// Reads the messages, and writes nothing.
 template <typename... Messages>
@@ -143,11 +143,11 @@ void messages_of_bag(benchmark::State& state, const std::vector<std::string>& to
   end(state);
 }
 void params_of_bag(benchmark::State& state) { messages_of_bag<CameraParams>(state, {"/camera/params"}); }
-BENCHMARK(params_of_bag)->Name("BM_BagToTake/peer")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(params_of_bag)->Name("BM_BagToTake/peer")->Unit(benchmark::kMillisecond);
 void tf_of_bag(benchmark::State& state) {
   messages_of_bag<tf2_msgs::TFMessage, sensor_msgs::CameraInfo>(state, {"/tf", "/camera/camera_info"});
 }
-BENCHMARK(tf_of_bag)->Name("BM_BagOfTfToTake/peer")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(tf_of_bag)->Name("BM_BagOfTfToTake/peer")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace trk_bridge::bag
