@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string_view>
+#include <variant>
 
 #include "trk_bridge/wire/codec.h"
 #include "trk_bridge/wire/format.h"
@@ -40,8 +41,8 @@ inline void clear_unselected(CameraParams& p) noexcept {
 /// The record in `into`, made one of this type where it is none.
 template <class T>
 T& record_in(Record& into) noexcept {
-  if (T* const there = std::get_if<T>(&into)) return *there;
-  return into.emplace<T>();
+  if (!std::holds_alternative<T>(into)) into = Record(std::in_place_type<T>);
+  return *std::get_if<T>(&into);
 }
 
 }  // namespace trk_bridge::wire
