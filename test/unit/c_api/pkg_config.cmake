@@ -1,12 +1,19 @@
 # Installs to an empty place and builds a C program with what pkg-config says of it, as a user does.
+set(prefix ${BUILD}/pkg_config_test)
+
+# A second package.xml would hide the package from roslaunch: nothing is left behind.
+function(fail text)
+  file(REMOVE_RECURSE ${prefix})
+  message(FATAL_ERROR "${text}")
+endfunction()
+
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${ARGN}\ngave ${result}:\n${output}")
+    fail("${ARGN}\ngave ${result}:\n${output}")
   endif()
 endfunction()
 
-set(prefix ${BUILD}/pkg_config_test)
 file(REMOVE_RECURSE ${prefix})
 unset(ENV{DESTDIR})
 run(${CMAKE_COMMAND} -DCMAKE_INSTALL_PREFIX=${prefix} -P ${BUILD}/cmake_install.cmake)
@@ -17,7 +24,7 @@ foreach(library trk trk_identified)
   execute_process(COMMAND ${PKG_CONFIG} --cflags --libs ${library}
     RESULT_VARIABLE result OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "pkg-config does not find ${library}")
+    fail("pkg-config does not find ${library}")
   endif()
   separate_arguments(flags UNIX_COMMAND "${flags}")
   run(${COMPILER} -std=c99 -Wall -Werror ${SOURCE} -o ${prefix}/user ${flags})
