@@ -8,8 +8,8 @@
 namespace trk_bridge::nodes {
 
 SourceReader::SourceReader(std::unique_ptr<transport::Source> source, std::vector<CameraOutput*> cameras,
-                           ::ros::Publisher tf)
-    : source_(std::move(source)), cameras_(std::move(cameras)), tf_(std::move(tf)) {
+                           const ::ros::Publisher& tf)
+    : source_(std::move(source)), cameras_(std::move(cameras)), tf_(tf) {
   ready_.reserve(cameras_.size());
 }
 

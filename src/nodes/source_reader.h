@@ -24,7 +24,8 @@ namespace trk_bridge::nodes {
 class SourceReader {
  public:
   /// The cameras must outlive this and be fed by nobody else. `tf` is the topic of the cameras' transforms.
-  SourceReader(std::unique_ptr<transport::Source> source, std::vector<CameraOutput*> cameras, ::ros::Publisher tf);
+  SourceReader(std::unique_ptr<transport::Source> source, std::vector<CameraOutput*> cameras,
+               const ::ros::Publisher& tf);
   ~SourceReader();
   SourceReader(const SourceReader&) = delete;
   SourceReader& operator=(const SourceReader&) = delete;

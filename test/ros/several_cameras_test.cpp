@@ -122,16 +122,23 @@ TEST_F(AtTheEndOfATake, TheNodeLivesOnUntilItIsInterrupted) {
   interrupted();
 }
 
-class FromFile : public TrkToRosTest {
+class FaultyTake : public TrkToRosTest {
  protected:
+  void SetUp() override { set("source", "file:" + path); }
+
   const TemporaryDirectory folder;
+  const std::string path = folder / "faulty.trk";
 };
 
-TEST_F(FromFile, AFaultyTakeIsRefusedWithItsLine) {
-  const std::string path = folder / "faulty.trk";
+TEST_F(FaultyTake, IsRefusedWithTheLineOfItsHead) {
+  write_text(path, "DMC01\n00:00:00:00:1\n1920 1080 0 0 0 0 9.59 5.39 9.59\n");
+  EXPECT_THAT(refusal(), ::testing::HasSubstr("faulty.trk:3"));
+}
+
+TEST_F(FaultyTake, EndsWithAnErrorAtAFaultyField) {
   write_text(path, "DMC01\n00:00:00:00:1\n1920 1080 0 0 0 0 9.59 5.39 9.59 5.39\n1 1 2 three\n");
-  set("source", "file:" + path);
-  EXPECT_THAT(refusal(), ::testing::HasSubstr("faulty.trk:4"));
+  ASSERT_TRUE(starts());
+  EXPECT_TRUE(diagnostics.reports(status_name(), diagnostic_msgs::DiagnosticStatus::ERROR, "faulty.trk:4"));
 }
 
 }  // namespace

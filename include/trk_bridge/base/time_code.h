@@ -53,7 +53,9 @@ class TimeCodeSeries {
   /// Errors as above.
   static tl::expected<TimeCodeSeries, std::string> from(const TimeCode&, double field_rate);
 
+  /// As nanoseconds_of().
   std::int64_t nanoseconds(std::uint64_t index) const noexcept;
+  /// As time_code_after().
   TimeCode code(std::uint64_t index) const noexcept;
 
  private:
