@@ -44,13 +44,19 @@ CameraUpdate CameraPipeline::initial() const noexcept {
 }
 
 CameraUpdate CameraPipeline::process(const transport::Sample& sample, std::int64_t now) noexcept {
-  // std::visit would do, but can throw as far as a compiler knows.
-  if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) return process(*params, sample, now);
-  return process(*std::get_if<wire::CameraConstants>(&sample.record), sample, now);
+  auto update = begin(sample, now);
+  calibrate(update);
+  return update;
 }
 
-CameraUpdate CameraPipeline::process(const wire::CameraConstants& constants, const transport::Sample& sample,
-                                     std::int64_t now) noexcept {
+CameraUpdate CameraPipeline::begin(const transport::Sample& sample, std::int64_t now) noexcept {
+  // std::visit would do, but can throw as far as a compiler knows.
+  if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) return begin(*params, sample, now);
+  return begin(*std::get_if<wire::CameraConstants>(&sample.record), sample, now);
+}
+
+CameraUpdate CameraPipeline::begin(const wire::CameraConstants& constants, const transport::Sample& sample,
+                                   std::int64_t now) noexcept {
   if (lock_.claim(sample.sender, now) == SenderLock::Claim::foreign) {
     ignore(sample.sender);
     return {};
@@ -71,8 +77,8 @@ CameraUpdate CameraPipeline::process(const wire::CameraConstants& constants, con
   return update;
 }
 
-CameraUpdate CameraPipeline::process(const wire::CameraParams& params, const transport::Sample& sample,
-                                     std::int64_t now) noexcept {
+CameraUpdate CameraPipeline::begin(const wire::CameraParams& params, const transport::Sample& sample,
+                                   std::int64_t now) noexcept {
   const SenderLock::Claim claim = lock_.claim(sample.sender, now);
   if (claim == SenderLock::Claim::foreign) {
     ignore(sample.sender);
@@ -189,7 +195,14 @@ void CameraPipeline::add_lens(const camera::Converted& converted, CameraUpdate& 
     statistics_.withhold_reason = converted.params.error();
   }
   if (!options_.publish_camera_info) return;
-  const auto calibration = calibrate(converted.lens);
+  const auto* const constants = converter_.incoming();
+  update.uncalibrated = {converted.lens, constants == nullptr ? std::nullopt : std::optional(*constants)};
+}
+
+void CameraPipeline::calibrate(CameraUpdate& update) noexcept {
+  if (!update.uncalibrated) return;
+  const auto calibration = calibration_of(*update.uncalibrated);
+  update.uncalibrated.reset();
   statistics_.has_camera_info = calibration.has_value();
   if (!calibration) {
     ++statistics_.without_camera_info;
@@ -200,10 +213,10 @@ void CameraPipeline::add_lens(const camera::Converted& converted, CameraUpdate& 
   statistics_.fit_residual = calibration->distortion.residual;
 }
 
-camera::Result<camera::Calibration> CameraPipeline::calibrate(const camera::Result<camera::Lens>& lens) noexcept {
-  if (converter_.incoming() == nullptr) return tl::unexpected(CameraReason::constants_needed);
-  if (!lens) return tl::unexpected(lens.error());
-  return calibrator_.calibrate(*lens, *converter_.incoming());
+camera::Result<camera::Calibration> CameraPipeline::calibration_of(const Uncalibrated& given) noexcept {
+  if (!given.constants) return tl::unexpected(CameraReason::constants_needed);
+  if (!given.lens) return tl::unexpected(given.lens.error());
+  return calibrator_.calibrate(*given.lens, *given.constants);
 }
 
 CameraUpdate CameraPipeline::drop(CameraReason reason) noexcept {

@@ -65,6 +65,12 @@ struct CameraStatistics {
   std::int64_t last_new = 0;                        ///< steady clock, ns; valid once sequence.accepted > 0
 };
 
+/// What a calibration is made of.
+struct Uncalibrated {
+  camera::Result<camera::Lens> lens;
+  std::optional<wire::CameraConstants> constants;  ///< as received
+};
+
 /// What one sample gives to publish, all of one stamp.
 struct CameraUpdate {
   std::int64_t stamp = 0;                          ///< ns since 1970 UTC; 0: no time is known (of constants alone)
@@ -73,6 +79,7 @@ struct CameraUpdate {
   std::optional<camera::Calibration> calibration;  ///< of CameraInfo
   std::optional<Eigen::Isometry3d> pose;           ///< studio_T_camera, m
   std::optional<base::CountedTimeCode> time_code;  ///< of parameters, where the protocol has one
+  std::optional<Uncalibrated> uncalibrated;        ///< a calibration is wanted: CameraPipeline::calibrate() makes it
 
   bool is_empty() const noexcept { return stamp == 0 && !constants; }
 };
@@ -91,12 +98,16 @@ class CameraPipeline {
 
   /// Takes a sample whose record wants() is true for. `now` is the steady clock's time of receipt, ns.
   [[nodiscard]] CameraUpdate process(const transport::Sample&, std::int64_t now) noexcept;
+  /// The same in two steps, because fitting a lens takes longer than all the rest: an update without calibration, which
+  /// calibrate() adds where one is wanted and can be made. Between them other samples may begin.
+  [[nodiscard]] CameraUpdate begin(const transport::Sample&, std::int64_t now) noexcept;
+  void calibrate(CameraUpdate&) noexcept;
 
   const CameraStatistics& statistics() const noexcept { return statistics_; }
 
  private:
-  CameraUpdate process(const wire::CameraConstants&, const transport::Sample&, std::int64_t now) noexcept;
-  CameraUpdate process(const wire::CameraParams&, const transport::Sample&, std::int64_t now) noexcept;
+  CameraUpdate begin(const wire::CameraConstants&, const transport::Sample&, std::int64_t now) noexcept;
+  CameraUpdate begin(const wire::CameraParams&, const transport::Sample&, std::int64_t now) noexcept;
   void ignore(const transport::Sender&) noexcept;
   /// Another sender than the one before, if there was one, is followed from now on.
   void note_failover() noexcept;
@@ -106,7 +117,7 @@ class CameraPipeline {
   std::int64_t by_counter(const transport::Sample&) noexcept;
   std::optional<std::int64_t> stamp(std::int64_t time) noexcept;
   void add_lens(const camera::Converted&, CameraUpdate&) noexcept;
-  camera::Result<camera::Calibration> calibrate(const camera::Result<camera::Lens>&) noexcept;
+  camera::Result<camera::Calibration> calibration_of(const Uncalibrated&) noexcept;
   CameraUpdate drop(camera::CameraReason) noexcept;
 
   CameraOptions options_;

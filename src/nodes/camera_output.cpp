@@ -27,10 +27,11 @@ CameraOutput::CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&
   statistics_.store(pipeline_.statistics());
   make(pipeline_.initial());
   publish();
+  publish_camera_info();
 }
 
 bridge::CameraUpdate CameraOutput::process(const transport::Sample& sample, std::int64_t now) {
-  auto update = pipeline_.process(sample, now);
+  auto update = pipeline_.begin(sample, now);
   statistics_.store(pipeline_.statistics());
   return update;
 }
@@ -47,9 +48,19 @@ const geometry_msgs::TransformStamped* CameraOutput::transform() const noexcept 
 
 void CameraOutput::publish() {
   if (update_.params) params_.publish(messages_.params());
-  if (update_.calibration) camera_info_.publish(messages_.camera_info());
   if (update_.constants) constants_.publish(messages_.constants());
   if (update_.time_code) time_code_.publish(messages_.time_code());
+}
+
+void CameraOutput::publish_camera_info() {
+  if (update_.uncalibrated) {
+    pipeline_.calibrate(update_);
+    statistics_.store(pipeline_.statistics());
+  }
+  if (update_.calibration) {
+    messages_.make_camera_info(update_);
+    camera_info_.publish(messages_.camera_info());
+  }
   publish_markers();
   is_ready_ = false;
 }

@@ -18,8 +18,9 @@
 
 namespace trk_bridge::nodes {
 
-/// Publishing is apart from processing, so that the tf of several cameras can go out as one message, before the rest.
-/// All but describe() belongs to one reader's thread, describe() to the diagnostics' one.
+/// Publishing is apart from processing: the tf of several cameras goes out as one message, before the rest, and a
+/// CameraInfo, whose lens has to be fitted, after all that does not need it. All but describe() belongs to one reader's
+/// thread, describe() to the diagnostics' one.
 class CameraOutput {
  public:
   /// Advertises `params`, `constants`, `camera_info` and `time_code` in the namespace of `node`, and publishes the
@@ -29,7 +30,7 @@ class CameraOutput {
                const ::ros::Publisher& markers);
 
   bool wants(const wire::Record& record) const noexcept { return pipeline_.wants(record); }
-  /// What comes of a sample. `now` is the steady clock's time of receipt, ns.
+  /// What comes of a sample, not calibrated. `now` is the steady clock's time of receipt, ns.
   bridge::CameraUpdate process(const transport::Sample&, std::int64_t now);
   /// Makes the messages of an update that is not empty. Those of the one before must have been published.
   void make(const bridge::CameraUpdate&);
@@ -37,8 +38,10 @@ class CameraOutput {
   bool is_ready() const noexcept { return is_ready_; }
   /// The transform among it; null: none.
   const geometry_msgs::TransformStamped* transform() const noexcept;
-  /// Publishes it, but for the transform, before it returns.
+  /// Publishes it, but for the transform and the CameraInfo, before it returns.
   void publish();
+  /// Makes and publishes the CameraInfo, and the markers: the last of what is ready.
+  void publish_camera_info();
 
   /// `report` is of this moment but for the camera's part, which is added here. Findings of a kind that was not met
   /// before go to the log, too.

@@ -97,6 +97,7 @@ void SourceReader::publish() {
   transforms.resize(count);
   if (!transforms.empty()) tf_.publish(transforms_.current());
   for (auto* camera : ready_) camera->publish();
+  for (auto* camera : ready_) camera->publish_camera_info();
   ready_.clear();
 }
 

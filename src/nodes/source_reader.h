@@ -20,7 +20,7 @@ namespace trk_bridge::nodes {
 
 /// Reads from start() until it is destroyed, the source ends or fails. A source that failed stays so: its diagnostics
 /// say why, and the node lives on for its other sources. What arrives together, of different cameras, is published
-/// together: one message of tf, then the cameras' own.
+/// together: one message of tf, then the cameras' own messages, then what needs a fit of their lenses.
 class SourceReader {
  public:
   /// The cameras must outlive this and be fed by nobody else. `tf` is the topic of the cameras' transforms.

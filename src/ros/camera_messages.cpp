@@ -39,12 +39,16 @@ void CameraMessages::make(const bridge::CameraUpdate& update) {
   const ::ros::Time stamp = to_time(update.stamp);
   if (update.constants) fill(constants_, *update.constants, stamp);
   if (update.params) fill(params_, *update.params, stamp);
-  if (update.calibration) fill(camera_info_, *update.calibration, stamp);
+  if (update.calibration) make_camera_info(update);
   if (update.time_code) fill(time_code_, *update.time_code, stamp);
   if (update.pose) {
     transform_.transform = to_transform(*update.pose);
     transform_.header.stamp = stamp;
   }
+}
+
+void CameraMessages::make_camera_info(const bridge::CameraUpdate& update) {
+  fill(camera_info_, *update.calibration, to_time(update.stamp));
 }
 
 }  // namespace trk_bridge::ros1

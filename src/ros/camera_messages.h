@@ -21,6 +21,8 @@ class CameraMessages {
 
   /// Makes the messages of all that is in an update, with its stamp; the others stay as they are.
   void make(const bridge::CameraUpdate&);
+  /// The CameraInfo of an update alone, which must have a calibration.
+  void make_camera_info(const bridge::CameraUpdate&);
 
   /// To be published as they are, not to be changed any more.
   const auto& params() const noexcept { return params_.current(); }

@@ -108,6 +108,17 @@ class SourceReader : public CameraTest {
   std::vector<std::string> came;
   std::vector<trk_bridge::CameraParamsConstPtr> messages;
 
+  /// From now on `came` has these, too.
+  void listen_to_camera_infos() {
+    for (int i = 1; i <= count; ++i) {
+      params_.push_back(::ros::NodeHandle().subscribe<sensor_msgs::CameraInfo>(
+          name_space + "/camera" + std::to_string(i) + "/camera_info", 1000,
+          [this, i](const sensor_msgs::CameraInfoConstPtr& message) {
+            came.push_back("camera_info " + std::to_string(i) + " of " + std::to_string(message->width));
+          }));
+    }
+  }
+
  private:
   std::vector<std::unique_ptr<nodes::CameraOutput>> cameras_;
   std::unique_ptr<nodes::SourceReader> reader_;
@@ -129,6 +140,20 @@ TEST_F(SourceReader, WhatComesAloneDoesNotWait) {
 TEST_F(SourceReader, ASecondSampleOfACameraComesAfterTheFirst) {
   read({set(1, 1, true), set(1, 2, true), set(2, 1, true), set(2, 2, false)}, 6);
   EXPECT_THAT(came, ElementsAre("tf 1 2", "params 1 1", "params 2 1", "tf 1 2", "params 1 2", "params 2 2"));
+}
+
+TEST_F(SourceReader, WhatNeedsAFitOfTheLensComesLast) {
+  listen_to_camera_infos();
+  // The second constants are of the second field of camera 1 only.
+  read({{constants(720, 1), true},
+        {constants(640, 2), true},
+        set(1, 1, true),
+        set(1, 2, true),
+        {constants(1920, 1), true},
+        set(2, 1, false)},
+       8);
+  EXPECT_THAT(came, ElementsAre("tf 1 2", "params 1 1", "params 2 1", "camera_info 1 of 720", "camera_info 2 of 640",
+                                "tf 1", "params 1 2", "camera_info 1 of 1920"));
 }
 
 TEST_F(SourceReader, NothingWaitsForASampleThatDoesNotCome) {

@@ -137,6 +137,36 @@ TEST(CameraPipeline, ReceivedConstantsWinOverTheParameterAndOwnOnesOverThoseOfAn
   EXPECT_EQ(pipeline.statistics().constants, ConstantsOrigin::own);
 }
 
+TEST(CameraPipeline, ACalibrationThatIsMadeLaterIsOfItsOwnSample) {
+  auto wider = constants();
+  wider.image_width = 3840;
+  auto longer = params(2);
+  longer.fov = 20;
+  CameraPipeline at_once({}, 50.0), later({}, 50.0);
+  for (auto* pipeline : {&at_once, &later}) static_cast<void>(pipeline->process(sample(constants()), 0));
+  auto first = later.begin(sample(params(1)), 1);
+  static_cast<void>(later.begin(sample(wider), 2));
+  auto second = later.begin(sample(longer), 3);
+  EXPECT_TRUE(first.params && first.pose && !first.calibration);
+  EXPECT_EQ(later.statistics().without_camera_info, 0u);
+  later.calibrate(first);
+  later.calibrate(second);
+  EXPECT_TRUE(later.statistics().has_camera_info);
+
+  const auto first_at_once = at_once.process(sample(params(1)), 1);
+  static_cast<void>(at_once.process(sample(wider), 2));
+  const auto second_at_once = at_once.process(sample(longer), 3);
+  ASSERT_TRUE(first.calibration && second.calibration);
+  EXPECT_EQ(first.calibration->width, 1920u);
+  EXPECT_EQ(second.calibration->width, 3840u);
+  EXPECT_EQ(first.calibration->k, first_at_once.calibration->k);
+  EXPECT_EQ(second.calibration->k, second_at_once.calibration->k);
+  // Once and for all.
+  const auto counted = later.statistics().without_camera_info;
+  later.calibrate(second);
+  EXPECT_EQ(later.statistics().without_camera_info, counted);
+}
+
 TEST(CameraPipeline, WithoutConstantsItHasNoneToBeginWith) {
   EXPECT_FALSE(CameraPipeline(CameraOptions{}, 50).initial().constants);
 }
