@@ -7,7 +7,7 @@ import pathlib
 from .svg import GREY, INK, Picture
 
 FOLDER = pathlib.Path(__file__).resolve().parent.parent
-LEFT, RIGHT, TOP, STEP = 390, 900, 64, 22
+LEFT, RIGHT, TOP, STEP = 420, 900, 64, 22
 TICKS = (1 / 20, 1 / 10, 1 / 5, 1 / 2, 1, 2, 5)
 BETTER, WORSE, AIM = "#2e7d32", "#ef6c00", "#c62828"
 
@@ -34,7 +34,7 @@ def speed():
         picture.line([(at(row["least"]), y), (at(row["most"]), y)], INK, 1)
         if row["aim"]:
             picture.line([(at(row["aim"]), y - 8), (at(row["aim"]), y + 8)], AIM, 2)
-        picture.text((LEFT - 12, y + 4), row["what"], 11, INK, "end")
+        picture.text((LEFT - 12, y + 4), f"{row['what']} / {row['peer is']}", 10, INK, "end")
     picture.line([(LEFT, bottom + 24), (LEFT + 30, bottom + 24)], INK, 1)
     picture.text((LEFT + 38, bottom + 28), "spread", 11, INK)
     picture.line([(LEFT + 120, bottom + 16), (LEFT + 120, bottom + 32)], AIM, 2)
