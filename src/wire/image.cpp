@@ -59,18 +59,18 @@ Fault not_finite(const Record& record) noexcept {
 /// A visitor that reads consecutive fields; `at` is the first.
 template <ByteOrder order>
 auto load_from(const char* at) noexcept {
-  return [at](const Field&, auto& value) mutable {
-    value = load<std::decay_t<decltype(value)>>(at, order);
-    at += sizeof value;
+  return [next = at](const Field&, auto& value) mutable {
+    value = load<std::decay_t<decltype(value)>>(next, order);
+    next += sizeof value;
   };
 }
 
 /// A visitor that writes consecutive fields; `at` is the first.
 template <ByteOrder order>
 auto store_to(char* at) noexcept {
-  return [at](const Field&, auto value) mutable {
-    store(value, at, order);
-    at += sizeof value;
+  return [next = at](const Field&, auto value) mutable {
+    store(value, next, order);
+    next += sizeof value;
   };
 }
 
