@@ -76,7 +76,7 @@ wire::CameraConstants constants() {
   return c;
 }
 
-/// A camera that pans and zooms, with a lens that is fitted anew for every set.
+/// A camera that pans and zooms, whose lens has to be fitted for every set.
 wire::CameraParams params(std::uint64_t counter) {
   const double turn = static_cast<double>(counter % 1000) / 100;
   wire::CameraParams p;

@@ -9,26 +9,25 @@
 #include <rosbag/constants.h>
 
 #include "chunk.h"
+#include "records.h"
 
 namespace trk_bridge::bag {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using Buffer = std::vector<std::uint8_t>;
 
-constexpr std::string_view magic = "#ROSBAG V2.0\n";
+std::string_view text_of(const Buffer& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
-std::string_view text_of(const Bytes& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
-
-void append(Bytes& into, std::string_view text) { into.insert(into.end(), text.begin(), text.end()); }
+void append(Buffer& into, std::string_view text) { into.insert(into.end(), text.begin(), text.end()); }
 
 template <typename Number>
-void append_number(Bytes& into, Number number) {
+void append_number(Buffer& into, Number number) {
   append(into, {reinterpret_cast<const char*>(&number), sizeof number});
 }
 
 /// What `fill` appends, behind its size in four bytes.
 template <typename Fill>
-void append_sized(Bytes& into, const Fill& fill) {
+void append_sized(Buffer& into, const Fill& fill) {
   const std::size_t at = into.size();
   append_number(into, std::uint32_t{0});
   fill();
@@ -36,7 +35,7 @@ void append_sized(Bytes& into, const Fill& fill) {
   std::memcpy(into.data() + at, &size, sizeof size);
 }
 
-void append_field(Bytes& into, std::string_view name, std::string_view value) {
+void append_field(Buffer& into, std::string_view name, std::string_view value) {
   append_number(into, static_cast<std::uint32_t>(name.size() + 1 + value.size()));
   append(into, name);
   into.push_back(rosbag::FIELD_DELIM);
@@ -44,11 +43,11 @@ void append_field(Bytes& into, std::string_view name, std::string_view value) {
 }
 
 template <typename Number, typename = std::enable_if_t<std::is_integral_v<Number>>>
-void append_field(Bytes& into, std::string_view name, Number number) {
+void append_field(Buffer& into, std::string_view name, Number number) {
   append_field(into, name, std::string_view(reinterpret_cast<const char*>(&number), sizeof number));
 }
 
-void append_field(Bytes& into, std::string_view name, ::ros::Time time) {
+void append_field(Buffer& into, std::string_view name, ::ros::Time time) {
   append_field(into, name, static_cast<std::uint64_t>(time.nsec) << 32U | time.sec);
 }
 
@@ -68,7 +67,7 @@ void Writer::write(std::string_view bytes) {
 }
 
 std::string Writer::file_header(std::int64_t index_place) const {
-  Bytes header;
+  Buffer header;
   append_sized(header, [&] {
     append_field(header, rosbag::CHUNK_COUNT_FIELD_NAME, chunk_count_);
     append_field(header, rosbag::CONNECTION_COUNT_FIELD_NAME, connection_count_);
@@ -100,7 +99,7 @@ std::uint8_t* Writer::add_message(Topic& topic, ::ros::Time time, std::uint32_t 
   return chunk_.data() + chunk_.size() - size;
 }
 
-void Writer::append_connection(const Topic& topic, Bytes& into) {
+void Writer::append_connection(const Topic& topic, Buffer& into) {
   append_sized(into, [&] {
     append_field(into, rosbag::CONNECTION_FIELD_NAME, *topic.id);
     append_field(into, rosbag::OP_FIELD_NAME, rosbag::OP_CONNECTION);
@@ -112,7 +111,7 @@ void Writer::append_connection(const Topic& topic, Bytes& into) {
 }
 
 void Writer::end_chunk() {
-  Bytes record;
+  Buffer record;
   append_sized(record, [&] {
     append_field(record, rosbag::COMPRESSION_FIELD_NAME, compression_);
     append_field(record, rosbag::OP_FIELD_NAME, rosbag::OP_CHUNK);
@@ -120,8 +119,8 @@ void Writer::end_chunk() {
   });
   append_chunk_info();
   const bool is_plain = compression_ == rosbag::COMPRESSION_NONE;
-  const Bytes packed = is_plain ? Bytes() : pack_chunk(compression_, chunk_);
-  const Bytes& data = is_plain ? chunk_ : packed;
+  const Buffer packed = is_plain ? Buffer() : pack_chunk(compression_, chunk_);
+  const Buffer& data = is_plain ? chunk_ : packed;
   append_number(record, static_cast<std::uint32_t>(data.size()));
   write(text_of(record));
   write(text_of(data));
@@ -155,7 +154,7 @@ void Writer::write_index(Topic& topic) {
   if (topic.entries.empty()) return;
   const auto by_time = [](const Entry& one, const Entry& other) { return one.time < other.time; };
   std::stable_sort(topic.entries.begin(), topic.entries.end(), by_time);
-  Bytes record;
+  Buffer record;
   append_sized(record, [&] {
     append_field(record, rosbag::CONNECTION_FIELD_NAME, *topic.id);
     append_field(record, rosbag::COUNT_FIELD_NAME, static_cast<std::uint32_t>(topic.entries.size()));

@@ -52,7 +52,7 @@ class Writer {
   void close();
 
  private:
-  using Bytes = std::vector<std::uint8_t>;
+  using Buffer = std::vector<std::uint8_t>;
   static constexpr std::size_t chunk_size = std::size_t{768} << 10U;
 
   struct Entry {
@@ -68,7 +68,7 @@ class Writer {
 
   /// Where the message's bytes belong.
   std::uint8_t* add_message(Topic&, ::ros::Time, std::uint32_t size);
-  static void append_connection(const Topic&, Bytes& into);
+  static void append_connection(const Topic&, Buffer& into);
   void end_chunk();
   void append_chunk_info();
   void write_index(Topic&);
@@ -81,9 +81,9 @@ class Writer {
   std::int64_t size_ = 0;  // of the file
   std::vector<Topic> topics_;
   std::uint32_t connection_count_ = 0, chunk_count_ = 0;
-  Bytes chunk_;
+  Buffer chunk_;
   ::ros::Time begin_, end_;  // of the chunk
-  Bytes connection_records_, chunk_infos_;
+  Buffer connection_records_, chunk_infos_;
 };
 
 }  // namespace trk_bridge::bag

@@ -10,8 +10,7 @@
 namespace trk_bridge::transport {
 
 /// Counts what a source hands out and derives its state from that. A source that waits for more than stop_event() adds
-/// to stop(). The protected functions belong to the thread of
-/// receive().
+/// to stop(). The protected functions belong to the thread of receive().
 class CountedSource : public Source {
  public:
   void stop() noexcept override { stop_.set(); }

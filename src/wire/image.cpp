@@ -3,6 +3,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "bytes.h"
 #include "payload.h"
 #include "places.h"
 #include "shape.h"

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "bytes.h"
 #include "layout_words.h"
 #include "payload.h"
 #include "rigid.h"

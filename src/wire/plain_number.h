@@ -1,7 +1,6 @@
 // Numbers as senders write them, taken off a text in one pass. What is not so plain is left to number.h.
 #pragma once
 
-#include <array>
 #include <cfloat>
 #include <cstddef>
 #include <cstdint>
@@ -9,19 +8,13 @@
 
 #include <fast_float/fast_float.h>
 
-#include "shape.h"
+#include "bytes.h"
+#include "decimal.h"
 #include "words.h"
 
 namespace trk_bridge::wire {
 
 constexpr bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
-
-inline constexpr std::array<std::uint32_t, 9> whole_powers{1,      10,      100,      1000,     10000,
-                                                           100000, 1000000, 10000000, 100000000};
-/// Powers of ten that are doubles.
-inline constexpr std::array<double, 23> exact_powers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                                     1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                                     1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 /// More digits may not fit 64 bits.
 inline constexpr std::ptrdiff_t most_plain_digits = 19;
@@ -41,7 +34,7 @@ inline const char* take_digits(const char* at, const char* end, std::uint64_t& n
     digits = (digits * 10 + (digits >> 8U)) & 0x00FF00FF00FF00FFU;
     digits = (digits * 100 + (digits >> 16U)) & 0x0000FFFF0000FFFFU;
     digits = (digits * 10000 + (digits >> 32U)) & 0x00000000FFFFFFFFU;
-    number = number * whole_powers[count] + digits;
+    number = number * powers_of_ten[count] + digits;
     at += count;
     if (count < width) return at;
   }
@@ -61,7 +54,7 @@ inline bool scale(std::uint64_t digits, int exponent, double& value) noexcept {
 
 /// Whether digits * 10^exponent is one operation of two doubles, which rounds once.
 constexpr bool is_exact(std::uint64_t digits, int exponent) noexcept {
-  constexpr int largest = static_cast<int>(exact_powers.size()) - 1;
+  constexpr int largest = static_cast<int>(exact_powers_of_ten.size()) - 1;
   constexpr bool doubles_are_evaluated_as_such = FLT_EVAL_METHOD == 0;
   return doubles_are_evaluated_as_such && digits <= std::uint64_t{1} << 53U && exponent >= -largest &&
          exponent <= largest;
@@ -106,8 +99,8 @@ inline const char* read_plain_number(const char* at, const char* end, double& va
   if (!is_space(*at)) return nullptr;
   if (is_exact(digits, exponent)) {
     const auto whole_number = static_cast<double>(digits);
-    value = exponent < 0 ? whole_number / exact_powers[static_cast<std::size_t>(-exponent)]
-                         : whole_number * exact_powers[static_cast<std::size_t>(exponent)];
+    value = exponent < 0 ? whole_number / exact_powers_of_ten[static_cast<std::size_t>(-exponent)]
+                         : whole_number * exact_powers_of_ten[static_cast<std::size_t>(exponent)];
   } else if (!scale(digits, exponent, value)) {
     return nullptr;
   }

@@ -1,6 +1,5 @@
 #include "shortest.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -11,29 +10,19 @@
 #define FMT_USE_FULL_CACHE_DRAGONBOX 1
 #include <fmt/format.h>
 
-#include "shape.h"
+#include "bytes.h"
+#include "decimal.h"
 
 namespace trk_bridge::wire {
 
 namespace {
-
-constexpr std::array<std::uint64_t, 19> powers_of_ten() noexcept {
-  std::array<std::uint64_t, 19> powers{};
-  std::uint64_t power = 1;
-  for (std::uint64_t& one : powers) {
-    one = power;
-    power *= 10;
-  }
-  return powers;
-}
-constexpr auto powers = powers_of_ten();
 
 /// Of a number below 10^18.
 int count_digits(std::uint64_t number) noexcept {
   // 1233 / 4096 is log10(2), near enough.
   const int bits = 64 - __builtin_clzll(number | 1U);
   const int digits = bits * 1233 / 4096;
-  return digits + (number >= powers[static_cast<std::size_t>(digits)] ? 1 : 0);
+  return digits + (number >= powers_of_ten[static_cast<std::size_t>(digits)] ? 1 : 0);
 }
 
 constexpr std::array<char, 200> digit_pairs() noexcept {
@@ -67,7 +56,7 @@ inline void put_eight_digits(std::uint32_t number, char* to) noexcept {
 constexpr int most_digits = 17;
 inline void put_digits(std::uint64_t number, int count, char* to) noexcept {
   constexpr std::uint32_t block = 100'000'000;
-  number *= powers[static_cast<std::size_t>(most_digits - count)];
+  number *= powers_of_ten[static_cast<std::size_t>(most_digits - count)];
   const auto upper = static_cast<std::uint32_t>(number / block);
   const auto lower = static_cast<std::uint32_t>(number - std::uint64_t{upper} * block);
   *to = static_cast<char>('0' + upper / block);

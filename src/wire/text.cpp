@@ -100,6 +100,7 @@ void read_matrix(Reader& reader, std::array<double, 16>& matrix) noexcept {
 class TextWriter {
  public:
   explicit TextWriter(char* to, TextMemory* memory = nullptr) noexcept : begin_(to), at_(to), memory_(memory) {}
+  static_assert(sizeof TextMemory::Number::text == longest_number);
 
   void id(std::uint32_t value) noexcept {
     if (value == 0) return;
