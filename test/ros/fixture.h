@@ -15,6 +15,7 @@
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "nodes/ros_to_trk.h"
 #include "nodes/trk_to_ros.h"
 #include "trk_bridge/wire/codec.h"
 #include "udp.h"
@@ -147,6 +148,13 @@ class NodeTest : public CameraTest {
 class TrkToRosTest : public NodeTest<nodes::TrkToRos> {
  protected:
   TrkToRosTest() : NodeTest("trk_to_ros") {}
+};
+
+class RosToTrkTest : public NodeTest<nodes::RosToTrk> {
+ protected:
+  RosToTrkTest() : NodeTest("ros_to_trk") {}
+
+  void set_sinks(const std::vector<std::string>& urls) { set("sinks", urls); }
 };
 
 /// A source on a port that the kernel picks. Diagnostics contain which.

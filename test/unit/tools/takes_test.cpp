@@ -46,6 +46,26 @@ TEST(Takes, ThreeFormatsAreOneCamera) {
   }
 }
 
+/// What a program wrote to standard error, and its exit code.
+struct Outcome {
+  std::string err;
+  int exit_code;
+};
+
+/// Of those that read a take to its end; `trk relay` writes `copy`.
+std::vector<Outcome> dump_and_relay(const std::string& take, const std::string& copy) {
+  const std::string source = "file:" + take + "?speed=0";
+  std::vector<Outcome> outcomes;
+  for (const auto& command :
+       std::vector<std::vector<std::string>>{{TRK_TOOL, "dump", source}, {TRK_TOOL, "relay", source, "file:" + copy}}) {
+    test::Program program(command);
+    program.rest_of_out();
+    const std::string err = program.rest_of_err();
+    outcomes.push_back({err, program.wait()});
+  }
+  return outcomes;
+}
+
 TEST(Takes, OneThatIsCutIsUsedToItsLastWholeLineWithAWarning) {
   const test::TemporaryDirectory directory;
   const std::string path = directory / "cut.trk", copy = directory / "copy.trk";
@@ -53,15 +73,10 @@ TEST(Takes, OneThatIsCutIsUsedToItsLastWholeLineWithAWarning) {
   const std::string text = test::read_text(original);
   test::write_text(path, text.substr(0, text.size() - 30));
   const std::size_t fields = file::read_take(original).params.size() - 1;
-  const std::string source = "file:" + path + "?speed=0";
-  for (const auto& command :
-       std::vector<std::vector<std::string>>{{TRK_TOOL, "dump", source}, {TRK_TOOL, "relay", source, "file:" + copy}}) {
-    test::Program program(command);
-    program.rest_of_out();
-    const std::string err = program.rest_of_err();
+  for (const auto& [err, exit_code] : dump_and_relay(path, copy)) {
     EXPECT_THAT(err, ContainsRegex("line [0-9]+ is cut: "));
     EXPECT_THAT(err, HasSubstr("(" + std::to_string(fields) + " parameters, 1 constants), malformed 1"));
-    EXPECT_EQ(program.wait(), 0) << err;
+    EXPECT_EQ(exit_code, 0) << err;
   }
   EXPECT_EQ(file::read_take(copy).params.size(), fields);
 }
@@ -74,14 +89,9 @@ TEST(Takes, ALineThatIsNotSoundIsAnErrorThatNamesItWhereverItStands) {
   std::size_t at = 0;
   for (int line = 1; line < 2000; ++line) at = text.find('\n', at) + 1;
   test::write_text(path, text.insert(at, "oops "));
-  const std::string source = "file:" + path + "?speed=0";
-  for (const auto& command :
-       std::vector<std::vector<std::string>>{{TRK_TOOL, "dump", source}, {TRK_TOOL, "relay", source, "file:" + copy}}) {
-    test::Program program(command);
-    program.rest_of_out();
-    const std::string err = program.rest_of_err();
+  for (const auto& [err, exit_code] : dump_and_relay(path, copy)) {
     EXPECT_THAT(err, HasSubstr("trk: error: " + path + ":2000: field 1 is not"));
-    EXPECT_EQ(program.wait(), 1) << err;
+    EXPECT_EQ(exit_code, 1) << err;
   }
 }
 
