@@ -237,7 +237,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=5, help="how often everything is measured (5)")
     parser.add_argument("--seconds", type=float, default=10, help="of one latency measurement (10)")
     parser.add_argument("--rate", type=int, default=100, help="of sets in latency measurements, Hz (100)")
-    parser.add_argument("--only", help="a group: codec, take, shared memory, end to end")
+    parser.add_argument("--only", choices=["codec", "take", "shared memory", "end to end"], help="one group; writes nothing")
     parser.add_argument("--dry-run", action="store_true", help="write nothing to doc")
     options = parser.parse_args()
     if options.rounds < 1:
