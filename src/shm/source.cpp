@@ -34,7 +34,7 @@ using transport::SourceState;
 /// A segment full of what is no record is not looked at more often.
 constexpr nanoseconds malformed_period = std::chrono::microseconds(250);
 
-/// So long after the last set of a writer that wakes nobody, such a writer is still reckoned with.
+/// For so long after its last set, a writer that wakes nobody may write again.
 constexpr nanoseconds quiet_writer_memory = std::chrono::seconds(2);
 
 std::int64_t nanoseconds_of(Clock::time_point time) noexcept { return nanoseconds(time.time_since_epoch()).count(); }
