@@ -108,6 +108,7 @@ CameraUpdate CameraPipeline::begin(const wire::CameraParams& params, const trans
   CameraUpdate update;
   update.stamp = *stamped;
   update.time_code = sample.time_code;
+  if (sample.encoders != transport::LensEncoders{}) update.encoders = CameraEncoders{params.id, sample.encoders};
   if (options_.publish_tf) update.pose = *converted.pose;
   if (sample.has_lens) {
     add_lens(converted, update);

@@ -71,6 +71,12 @@ struct Uncalibrated {
   std::optional<wire::CameraConstants> constants;  ///< as received
 };
 
+/// What the encoders of a camera's lens counted.
+struct CameraEncoders {
+  std::uint32_t id = 0;
+  transport::LensEncoders counts;
+};
+
 /// What one sample gives to publish, all of one stamp.
 struct CameraUpdate {
   std::int64_t stamp = 0;                          ///< ns since 1970 UTC; 0: no time is known (of constants alone)
@@ -79,6 +85,7 @@ struct CameraUpdate {
   std::optional<camera::Calibration> calibration;  ///< of CameraInfo
   std::optional<Eigen::Isometry3d> pose;           ///< studio_T_camera, m
   std::optional<base::CountedTimeCode> time_code;  ///< of parameters, where the protocol has one
+  std::optional<CameraEncoders> encoders;          ///< likewise
   std::optional<Uncalibrated> uncalibrated;        ///< a calibration is wanted: CameraPipeline::calibrate() makes it
 
   bool is_empty() const noexcept { return stamp == 0 && !constants; }

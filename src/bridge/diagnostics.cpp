@@ -136,6 +136,9 @@ void add_source_findings(std::vector<Finding>& found, const CameraReport& now, c
   if (now.source.malformed > before.source.malformed && !nothing_valid) {
     warn(found, Condition::malformed, "malformed records: " + fault_text(now.reader));
   }
+  if (now.source.doubtful > before.source.doubtful) {
+    warn(found, Condition::doubtful, std::string("records are taken in spite of: ") + now.source.last_doubt);
+  }
   if (now.source.refused > before.source.refused && now.source.state != SourceState::only_refused) {
     warn(found, Condition::refused,
          "datagrams from senders that are not allowed, last " + transport::to_string(now.source.last_refused));
@@ -201,7 +204,7 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
   } else if (camera.withheld > old.withheld) {
     warn(found, Condition::withheld, "params withheld: " + camera::describe(camera.withhold_reason));
   } else if (!camera.has_lens) {
-    found.push_back({Condition::pose_only, Level::ok, "the records have no lens: nothing but tf is published"});
+    found.push_back({Condition::pose_only, Level::ok, "the records have no lens: of them, tf and, where there are any, lens_encoders are published"});
   } else if (no_constants && options.publish_camera_info && camera.sequence.accepted > 0) {
     warn(found, Condition::no_constants, "no constants yet: no camera_info");
   }
@@ -308,6 +311,7 @@ void fill(Status& status, const std::vector<Finding>& found, const CameraReport&
   status.add("failovers", camera.failovers);
   status.add("malformed", now.source.malformed);
   status.add("last malformed", fault_text(now.reader));
+  status.add("taken in spite of a fault", now.source.doubtful);
   status.add("refused senders", now.source.refused);
   status.add("kernel drops", now.source.kernel_drops);
   status.add("receive buffer", receive_buffer_text(now.source));

@@ -28,6 +28,7 @@ enum class Condition : std::uint8_t {
   ports_change,
   lost,
   malformed,
+  doubtful,
   refused,
   kernel_drops,
   unknown_ids,

@@ -31,6 +31,8 @@ std::string describe(CameraReason reason) {
     case CameraReason::bad_calibration:
       return "K must be fx 0 cx 0 fy cy 0 0 1 with fx and fy more than 0, D have 0, 4, 5 or 8 coefficients, and all be "
              "finite";
+    case CameraReason::no_lens:
+      return "the records have no lens";
     case CameraReason::too_wide:
       return "the image reaches farther than 89 degrees off the optical axis: too wide to be drawn";
   }

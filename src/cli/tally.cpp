@@ -5,6 +5,11 @@
 #include <variant>
 
 namespace trk_bridge::cli {
+namespace {
+
+constexpr double assumed_field_rate = 50;  // Hz
+
+}  // namespace
 
 bool Tally::Less::operator()(const Key& a, const Key& b) const noexcept {
   return std::tie(a.id, a.sender.kind, a.sender.address, a.sender.number) <
@@ -25,7 +30,9 @@ std::optional<base::Order> Tally::add(const transport::Sample& sample) {
       ++not_judged_;
       return std::nullopt;
     }
-    camera = cameras_.try_emplace(key).first;
+    // Without counters, every record is new.
+    const auto use = sample.has_counter ? base::CounterUse::strict : base::CounterUse::ignore;
+    camera = cameras_.try_emplace(key, assumed_field_rate, use).first;
   }
   return camera->second.judge(params->counter);
 }
@@ -34,6 +41,9 @@ void Tally::summarise(const transport::SourceStatistics& source, std::ostream& o
   out << "trk: received " << params_ + constants_ << " (" << params_ << " parameters, " << constants_
       << " constants), malformed " << source.malformed << ", refused " << source.refused << ", kernel drops "
       << source.kernel_drops << ", overwritten " << source.overwritten << '\n';
+  if (source.doubtful != 0) {
+    out << "trk: " << source.doubtful << " records were taken in spite of: " << source.last_doubt << '\n';
+  }
   for (const auto& [key, sequence] : cameras_) {
     const auto& counts = sequence.counts();
     out << "trk: id " << key.id << " from " << transport::to_string(key.sender) << ": " << counts.accepted

@@ -40,7 +40,7 @@ void Model::add(const transport::Sample& sample, Time now) {
 }
 
 void Model::add_params(Track& track, const transport::Sample& sample, const wire::CameraParams& params, Time now) {
-  track.latest = Latest{params, sample.origin, sample.time_code, now};
+  track.latest = Latest{params, sample.has_lens, sample.encoders, sample.doubt, sample.origin, sample.time_code, now};
   track.arrivals.add(sample.arrival);
   if (const auto pose = camera::decode_pose(params)) {
     const auto angles = camera::pan_tilt_roll(pose->linear());
@@ -79,7 +79,8 @@ CameraState Model::state_of(const cli::Tally::Key& key, const Track& track, Time
 
   const auto* constants = track.constants ? &*track.constants : nullptr;
   const auto& params = track.latest->params;
-  const auto lens = camera::decode_lens(params, constants);
+  const auto lens = track.latest->has_lens ? camera::decode_lens(params, constants)
+                                           : tl::make_unexpected(camera::CameraReason::no_lens);
   const auto angle = lens.and_then([&](const camera::Lens& known) { return horizontal_angle(known, constants); });
   const double age = seconds_between(track.latest->came, now);
   const double interval = state.jitter ? static_cast<double>(state.jitter->interval) * 1e-9 : 0;
@@ -90,7 +91,9 @@ CameraState Model::state_of(const cli::Tally::Key& key, const Track& track, Time
                              angle,
                              age,
                              age > std::max(silent_after, silent_after_intervals * interval),
-                             track.latest->time_code};
+                             track.latest->time_code,
+                             track.latest->encoders,
+                             track.latest->doubt};
   return state;
 }
 

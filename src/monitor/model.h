@@ -34,6 +34,8 @@ struct ParamsState {
   /// Nothing new for more than a second and more than three intervals.
   bool is_silent = false;
   std::optional<base::CountedTimeCode> time_code;
+  transport::LensEncoders encoders = {};
+  const char* doubt = "";  ///< transport::Sample::doubt
 };
 
 /// One id of one sender.
@@ -71,6 +73,9 @@ class Model {
  private:
   struct Latest {
     wire::CameraParams params;
+    bool has_lens;
+    transport::LensEncoders encoders;
+    const char* doubt;
     const char* origin;
     std::optional<base::CountedTimeCode> time_code;
     Time came;

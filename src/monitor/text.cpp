@@ -65,7 +65,9 @@ Group head(const CameraState& camera) {
   }
   group.items.push_back({transport::to_string(camera.key.sender)});
   if (!camera.latest) return group;
-  group.items.push_back({"counter " + std::to_string(camera.latest->params.counter)});
+  if (camera.counts.state != base::CounterState::ignored) {
+    group.items.push_back({"counter " + std::to_string(camera.latest->params.counter)});
+  }
   if (camera.latest->time_code) group.items.push_back({base::to_string(camera.latest->time_code->code)});
   if (!camera.latest->is_silent) group.items.push_back({"age " + seconds(camera.latest->age)});
   return group;
@@ -87,7 +89,10 @@ Group pose(const ParamsState& latest) {
 Group lens(const CameraState& camera) {
   const auto& latest = *camera.latest;
   Group group;
-  if (latest.lens) {
+  const bool has_lens = latest.lens || latest.lens.error() != camera::CameraReason::no_lens;
+  if (!has_lens) {
+    group.items.push_back({"no lens"});
+  } else if (latest.lens) {
     group.items.push_back({"lens " + fixed(latest.lens->image_distance, 3) + " mm"});
   } else {
     group.items.push_back({"no lens: " + camera::describe(latest.lens.error()), Style::error});
@@ -97,9 +102,18 @@ Group lens(const CameraState& camera) {
   } else if (camera.constants && latest.lens) {
     group.items.push_back({"no angle: " + camera::describe(latest.horizontal_angle.error()), Style::error});
   }
-  if (!camera.constants) group.items.push_back({"NO CONSTANTS have come", Style::warning});
-  group.items.push_back({"focus " + fixed(latest.params.focdist, 3) + " m"});
-  group.items.push_back({"aperture " + fixed(latest.params.aperture, 2)});
+  if (has_lens && !camera.constants) group.items.push_back({"NO CONSTANTS have come", Style::warning});
+  if (has_lens) {
+    group.items.push_back({"focus " + fixed(latest.params.focdist, 3) + " m"});
+    group.items.push_back({"aperture " + fixed(latest.params.aperture, 2)});
+  }
+  const auto add_count = [&group](const char* name, const std::optional<std::int32_t>& count) {
+    if (count) group.items.push_back({name + std::to_string(*count)});
+  };
+  add_count("zoom encoder ", latest.encoders.zoom);
+  add_count("focus encoder ", latest.encoders.focus);
+  add_count("iris encoder ", latest.encoders.iris);
+  if (*latest.doubt != '\0') group.items.push_back({latest.doubt, Style::warning});
   return group;
 }
 
@@ -160,6 +174,7 @@ Group constants(const wire::CameraConstants& c) {
 std::vector<Group> groups_of(const State& state) {
   Group title{{{"trk monitor", Style::heading}, state_of(state.source)}};
   Group counts{{{"records " + std::to_string(state.source.records)}, trouble("malformed", state.source.malformed)}};
+  add_if_any(counts, "taken in spite of a fault", state.source.doubtful);
   add_if_any(counts, "refused", state.source.refused);
   add_if_any(counts, "kernel drops", state.source.kernel_drops);
   add_if_any(counts, "overwritten", state.source.overwritten);

@@ -16,6 +16,14 @@
 namespace trk_bridge::tools {
 namespace {
 
+/// Calls `put` with name and count of each that is told.
+template <typename Put>
+void for_each_encoder(Put&& put, const transport::LensEncoders& encoders) {
+  if (encoders.zoom) put("zoom_encoder", *encoders.zoom);
+  if (encoders.focus) put("focus_encoder", *encoders.focus);
+  if (encoders.iris) put("iris_encoder", *encoders.iris);
+}
+
 class JsonRecord {
  public:
   explicit JsonRecord(rapidjson::StringBuffer& buffer) : writer_(buffer) {}
@@ -44,7 +52,9 @@ class JsonRecord {
       for (const double element : p.matrix) value(element);
       writer_.EndArray();
     }
-    wire::for_each_lens_field(put, p);
+    if (sample.has_lens) wire::for_each_lens_field(put, p);
+    for_each_encoder([this](const char* name, std::int32_t count) { integer(name, count); }, sample.encoders);
+    if (*sample.doubt != '\0') text("doubt", sample.doubt);
   }
 
   void body(const wire::CameraConstants& c, const transport::Sample& sample) {
@@ -144,12 +154,13 @@ class PlainRecord {
   explicit PlainRecord(const transport::Sample& sample)
       : line_(base::iso_time(sample.arrival) + " " + transport::to_string(sample.sender)) {
     if (sample.time_code) line_ += " " + base::to_string(sample.time_code->code);
-    std::visit([this](const auto& record) { body(record); }, sample.record);
+    std::visit([&](const auto& record) { body(record, sample); }, sample.record);
+    if (*sample.doubt != '\0') line_ += std::string(" (") + sample.doubt + ")";
   }
   std::string finish() { return std::move(line_); }
 
  private:
-  void body(const wire::CameraParams& p) {
+  void body(const wire::CameraParams& p, const transport::Sample& sample) {
     line_ += " id " + std::to_string(p.id) + " params " + std::to_string(p.counter) + " [" +
              wire::format_to_words(p.format) + "]";
     if ((p.format & ~wire::known_format_bits) != 0) {
@@ -164,10 +175,17 @@ class PlainRecord {
       line_ += " matrix columns";
       for (const double element : p.matrix) number(element);
     }
-    wire::for_each_lens_field(put, p);
+    if (sample.has_lens) wire::for_each_lens_field(put, p);
+    for_each_encoder(
+        [this](const char* name, std::int32_t count) {
+          word(name);
+          number(count);
+        },
+        sample.encoders);
+    if (!sample.has_lens) word("no lens");
   }
 
-  void body(const wire::CameraConstants& c) {
+  void body(const wire::CameraConstants& c, const transport::Sample&) {
     line_ += " id " + std::to_string(c.id) + " constants";
     const auto put = [this](const wire::Field& field, auto value) { put_field(field, value, 0); };
     wire::for_each_image_field(put, c);

@@ -6,6 +6,7 @@
 
 #include "cli/listen.h"
 #include "cli/tally.h"
+#include "trk_bridge/camera/camera.h"
 
 namespace trk_bridge::tools {
 namespace {
@@ -16,7 +17,9 @@ class Relay final : public cli::Listener {
 
   bool on_sample(const transport::Sample& sample) override {
     tally_.add(sample);
-    if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) {
+    if (!sample.has_lens) {
+      note_without_lens(sample);
+    } else if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) {
       sinks_.write(*params, {sample.arrival, sample.time_code});
     } else {
       sinks_.write(std::get<wire::CameraConstants>(sample.record));
@@ -34,13 +37,27 @@ class Relay final : public cli::Listener {
     sinks_.close();
     const cli::ExitCode ended = cli::report_end(tally_, source, ending, sinks_.err());
     sinks_.summarise();
-    return sinks_.is_good() ? ended : cli::exit_failed;
+    if (without_lens_ != 0) {
+      sinks_.report("not passed on: " + std::to_string(without_lens_) +
+                    " parameters: " + camera::describe(camera::CameraReason::no_lens));
+    }
+    return sinks_.is_good() && without_lens_ == 0 ? ended : cli::exit_failed;
   }
 
  private:
+  /// A record of trk with a lens that nobody knows would be an invention.
+  void note_without_lens(const transport::Sample& sample) {
+    if (without_lens_++ != 0) return;
+    const std::string why =
+        *sample.doubt != '\0' ? sample.doubt : "a lens table of the source (lens=FILE) would give one";
+    sinks_.report("parameters from " + transport::to_string(sample.sender) + " cannot be passed on: " +
+                  camera::describe(camera::CameraReason::no_lens) + ": " + why + " (reported once)");
+  }
+
   FanOut& sinks_;
   cli::Tally tally_;
   std::map<std::string_view, std::uint64_t> malformed_;
+  std::uint64_t without_lens_ = 0;
 };
 
 }  // namespace

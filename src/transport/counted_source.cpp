@@ -9,6 +9,10 @@ namespace trk_bridge::transport {
 
 Event CountedSource::sample(const Sample& sample) noexcept {
   ++counts_.records;
+  if (*sample.doubt != '\0') {
+    ++counts_.doubtful;
+    counts_.last_doubt = sample.doubt;
+  }
   const auto* params = std::get_if<wire::CameraParams>(&sample.record);
   if (params != nullptr && (params->format & ~wire::known_format_bits) != 0) ++counts_.unknown_format_bits;
   published_.store(counts_);
@@ -48,6 +52,8 @@ SourceStatistics CountedSource::statistics() const {
   statistics.malformed = counts.malformed;
   statistics.refused = counts.refused;
   statistics.unknown_format_bits = counts.unknown_format_bits;
+  statistics.doubtful = counts.doubtful;
+  statistics.last_doubt = counts.last_doubt;
   statistics.last_refused = counts.last_refused;
   if (counts.end == Event::failed) {
     statistics.state = SourceState::failed;

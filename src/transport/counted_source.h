@@ -35,7 +35,8 @@ class CountedSource : public Source {
 
  private:
   struct Counts {
-    std::uint64_t records = 0, malformed = 0, refused = 0, unknown_format_bits = 0;
+    std::uint64_t records = 0, malformed = 0, refused = 0, unknown_format_bits = 0, doubtful = 0;
+    const char* last_doubt = "";
     Sender last_refused;
     Event end = Event::sample;  ///< ended and failed are for good
     int error = 0;

@@ -19,6 +19,14 @@ class MemoryFeed {
     entry.reception.sample.origin = "ASCII";
     queue_->push(entry);
   }
+  void put_without_lens(const wire::CameraParams& params, const char* doubt = "") {
+    MemoryQueue::Entry entry;
+    entry.reception.sample.record = params;
+    entry.reception.sample.sender = sender(5000);
+    entry.reception.sample.has_lens = entry.reception.sample.has_counter = false;
+    entry.reception.sample.doubt = doubt;
+    queue_->push(entry);
+  }
   void put_malformed(wire::Reason reason) {
     MemoryQueue::Entry entry;
     entry.event = transport::Event::malformed;

@@ -26,6 +26,7 @@ enum class CameraReason : std::uint8_t {
   no_fit,             ///< no distortion model can be fitted in finite numbers
   bad_calibration,    ///< K or D of a CameraInfo that no camera has, or of a kind that is not known
   too_wide,           ///< the image reaches too far off the optical axis to be drawn
+  no_lens,            ///< the records have no lens
 };
 
 /// One line for a person.

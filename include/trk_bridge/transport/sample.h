@@ -76,6 +76,15 @@ class Fault {
   std::uint32_t line_ = 0;
 };
 
+/// What a lens's encoders count, where a protocol tells that. What a count means is the lens's matter (lens/table.h).
+struct LensEncoders {
+  std::optional<std::int32_t> zoom, focus, iris;  ///< none: not told
+};
+constexpr bool operator==(const LensEncoders& a, const LensEncoders& b) noexcept {
+  return a.zoom == b.zoom && a.focus == b.focus && a.iris == b.iris;
+}
+constexpr bool operator!=(const LensEncoders& a, const LensEncoders& b) noexcept { return !(a == b); }
+
 /// What sources hand out. Copying allocates nothing.
 struct Sample {
   wire::Record record;
@@ -83,10 +92,14 @@ struct Sample {
   Sender sender;
   const char* origin = "";  ///< how it was encoded, for a person; static text: "ASCII", "binary identified_lp64"
 
-  /// False where the protocol has no counter: then the record's counter is 0 and says nothing.
+  /// False where the protocol has no counter: then the record's is a number of its own, which says nothing of what was
+  /// lost.
   bool has_counter = true;
   /// False where the protocol has no lens: then of the record's parameters only the pose says anything.
   bool has_lens = true;
+  LensEncoders encoders;  ///< empty where the protocol has none
+  /// What is wrong with it although it was taken, for a person; static text, empty where nothing is: "wrong checksum".
+  const char* doubt = "";
   /// When the sender sampled the camera by its own clock, ns since 1970 UTC; none where the protocol has no time.
   std::optional<std::int64_t> sample_time;
   std::optional<base::CountedTimeCode> time_code;  ///< none where the protocol has none

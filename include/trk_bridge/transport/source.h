@@ -56,6 +56,8 @@ struct SourceStatistics {
   std::uint64_t overwritten = 0;          ///< shared memory: sets written and replaced before they were seen
   std::uint64_t unknown_format_bits = 0;  ///< records with bits above wire::known_format_bits
   std::uint64_t reattached = 0;           ///< shared memory: segments attached to after the first
+  std::uint64_t doubtful = 0;             ///< records handed out that have a Sample::doubt
+  const char* last_doubt = "";            ///< of the last of them
   Sender last_refused;
   std::string error;  ///< when failed: one line for a person
   /// When waiting, and whenever nothing can come: "slot 7: no segment", "udp port 7000: bound, nothing received yet",

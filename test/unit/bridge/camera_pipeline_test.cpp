@@ -376,7 +376,10 @@ TEST(CameraPipeline, WithoutALensOnlyThePoseIsPublished) {
   p.fov = std::nan("");  // says nothing
   auto s = sample(p, today + field);
   s.has_lens = false;
+  s.encoders.zoom = 74565;
   const auto made = pipeline.process(s, 0);
+  ASSERT_TRUE(made.encoders) << "counts go out without a lens, too";
+  EXPECT_EQ(made.encoders->counts, (transport::LensEncoders{74565, {}, {}}));
   ASSERT_TRUE(made.pose);
   EXPECT_EQ(made.pose->translation(), Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(made.stamp, today + field);
@@ -388,7 +391,9 @@ TEST(CameraPipeline, WithoutALensOnlyThePoseIsPublished) {
   EXPECT_FALSE(statistics.has_camera_info);
   EXPECT_EQ(statistics.dropped + statistics.withheld + statistics.without_camera_info, 0u);
 
-  EXPECT_TRUE(pipeline.process(sample(params(3), today + 2 * field), 0).calibration);
+  const auto last = pipeline.process(sample(params(3), today + 2 * field), 0);
+  EXPECT_TRUE(last.calibration);
+  EXPECT_FALSE(last.encoders) << "trk has none";
   EXPECT_TRUE(statistics.has_lens);
 }
 

@@ -301,6 +301,15 @@ TEST_F(Diagnostics, RecordsWithoutALensAreInOrderAndNamed) {
   EXPECT_EQ(value("camera_info"), "no: the records have no lens");
 }
 
+TEST_F(Diagnostics, RecordsTakenInSpiteOfAFaultAreAWarning) {
+  now.source.doubtful = before.source.doubtful = 5;
+  now.source.last_doubt = before.source.last_doubt = "wrong checksum";
+  expect(Level::ok, "receiving");
+  now.source.doubtful = 6;
+  expect(Level::warn, "records are taken in spite of: wrong checksum");
+  EXPECT_EQ(value("taken in spite of a fault"), "6");
+}
+
 TEST_F(Diagnostics, NoMarkersSaysWhy) {
   now.markers.not_drawn = before.markers.not_drawn = 5;
   expect(Level::ok, "receiving");

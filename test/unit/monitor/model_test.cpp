@@ -57,6 +57,26 @@ TEST_F(ModelTest, TellsRateCounterLossAndAge) {
   EXPECT_EQ(camera.jitter.value().worst, 20'000'000);
 }
 
+TEST_F(ModelTest, WithoutACounterEveryRecordIsNew) {
+  transport::Sample sample;
+  sample.has_counter = sample.has_lens = false;
+  sample.encoders.zoom = 5;
+  for (int i = 0; i < 5; ++i) {
+    sample.record = test::params(0, 7);
+    sample.arrival = i * 20'000'000;
+    model.add(sample, begin + milliseconds(20 * i));
+  }
+  const auto s = state(milliseconds(90));
+  ASSERT_EQ(s.cameras.size(), 1U);
+  const auto& camera = s.cameras.front();
+  EXPECT_EQ(camera.counts.accepted, 5U);
+  EXPECT_EQ(camera.counts.duplicates, 0U);
+  EXPECT_EQ(camera.counts.state, base::CounterState::ignored);
+  EXPECT_DOUBLE_EQ(camera.rate.value(), 50);
+  EXPECT_EQ(camera.latest->lens.error(), camera::CameraReason::no_lens);
+  EXPECT_EQ(camera.latest->encoders.zoom, 5);
+}
+
 TEST_F(ModelTest, AnEqualCounterIsNotNew) {
   add(test::params(5), milliseconds(0));
   for (int at = 20; at <= 2000; at += 20) add(test::params(5), milliseconds(at));

@@ -144,6 +144,23 @@ TEST(View, HasTheTimeCode) {
   EXPECT_THAT(plain_lines_of(state, 1).front(), HasSubstr("counter 1234567  10:20:30;12:1  age"));
 }
 
+TEST(View, CountsOfALensWithoutALens) {
+  State state = state_with(1);
+  state.source.doubtful = 2;
+  auto& camera = state.cameras.front();
+  camera.counts.state = base::CounterState::ignored;
+  camera.constants.reset();
+  camera.latest->lens = tl::unexpected(camera::CameraReason::no_lens);
+  camera.latest->horizontal_angle = tl::unexpected(camera::CameraReason::no_lens);
+  camera.latest->encoders = {74565, -9, {}};
+  camera.latest->doubt = "wrong checksum";
+  const std::string text = joined(text_of(state, {200, 60}));
+  EXPECT_THAT(text, HasSubstr("no lens  zoom encoder 74565  focus encoder -9  wrong checksum\n"));
+  EXPECT_THAT(text, HasSubstr("taken in spite of a fault 2"));
+  EXPECT_THAT(text, Not(HasSubstr("counter"))) << "there is none";
+  EXPECT_THAT(text, Not(HasSubstr("CONSTANTS"))) << "they would be of no use";
+}
+
 TEST(View, TellsTrouble) {
   auto state = troubled_state(2);
   state.cameras[0].counts.lost = 4;

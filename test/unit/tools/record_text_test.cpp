@@ -105,6 +105,23 @@ TEST(JsonLine, CountersAreWholeToTheLast) {
   EXPECT_EQ(json["id"].GetUint(), params.id);
 }
 
+TEST(RecordText, WithoutALensThereAreCountsAndDoubts) {
+  wire::CameraParams params;
+  params.format = wire::euler;
+  auto sample = sample_of(params);
+  sample.has_lens = false;
+  sample.encoders = {74565, {}, -3};
+  sample.doubt = "wrong checksum";
+  JsonLine line;
+  const auto json = parsed(line.of(sample));
+  EXPECT_FALSE(json.HasMember("fov") || json.HasMember("k1") || json.HasMember("focus_encoder"));
+  EXPECT_EQ(json["zoom_encoder"].GetInt(), 74565);
+  EXPECT_EQ(json["iris_encoder"].GetInt(), -3);
+  EXPECT_STREQ(json["doubt"].GetString(), "wrong checksum");
+  EXPECT_THAT(plain_line(sample),
+              testing::EndsWith("roll 0 0 0 deg zoom_encoder 74565 iris_encoder -3 no lens (wrong checksum)"));
+}
+
 TEST(PlainLine, NamesTheUnitsOfTheFormat) {
   wire::CameraParams params;
   params.id = 7;

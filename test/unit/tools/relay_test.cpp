@@ -108,6 +108,26 @@ TEST_F(RelayTest, WithoutOptionsEveryRecordPassesAsItCame) {
   EXPECT_THAT(err.str(), HasSubstr("received " + std::to_string(sent.size())));
 }
 
+TEST_F(RelayTest, RecordsWithoutALensAreRefusedWithTheReason) {
+  feed.put(test::params(1, 3));
+  feed.put_without_lens(test::params(2, 3));
+  feed.put_without_lens(test::params(3, 3));
+  add_gate();
+  EXPECT_EQ(run(), cli::exit_failed);
+  EXPECT_EQ(gate.params().size(), 1u);
+  EXPECT_THAT(err.str(),
+              HasSubstr("parameters from 127.0.0.1:5000 cannot be passed on: the records have no lens: a lens "
+                        "table of the source (lens=FILE) would give one (reported once)"));
+  EXPECT_THAT(err.str(), HasSubstr("not passed on: 2 parameters: the records have no lens"));
+}
+
+TEST_F(RelayTest, ALensThatIsBeyondItsTableIsNamed) {
+  feed.put_without_lens(test::params(2, 3), "the lens encoders are beyond the lens table");
+  add_gate();
+  EXPECT_EQ(run(), cli::exit_failed);
+  EXPECT_THAT(err.str(), HasSubstr("the records have no lens: the lens encoders are beyond the lens table"));
+}
+
 TEST_F(RelayTest, AnotherIdReplacesTheOneThatCame) {
   feed.put(test::constants(720, 3));
   feed.put(test::params(1, 3));

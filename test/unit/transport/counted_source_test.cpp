@@ -113,6 +113,17 @@ TEST(CountedSource, UnknownFormatBitsAreOfParametersOnly) {
   EXPECT_EQ(source.statistics().records, 3u);
 }
 
+TEST(CountedSource, RecordsTakenInSpiteOfAFaultAreCounted) {
+  Scripted source;
+  auto doubtful = sample_of(test::params(1));
+  doubtful.doubt = "wrong checksum";
+  source.sample(doubtful);
+  source.sample(sample_of(test::params(2)));
+  EXPECT_EQ(source.statistics().doubtful, 1u);
+  EXPECT_STREQ(source.statistics().last_doubt, "wrong checksum") << "of the last that had one";
+  EXPECT_EQ(source.statistics().records, 2u);
+}
+
 TEST(CountedSource, AsAReaderOfASourceSeesIt) {
   test::MemoryFeed feed;
   const auto source = feed.source();
