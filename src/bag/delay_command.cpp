@@ -1,6 +1,5 @@
 #include "delay_command.h"
 
-#include <fstream>
 #include <iostream>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include <unistd.h>
 
 #include "cameras.h"
+#include "cli/arguments.h"
 #include "cli/checked_output.h"
 #include "cli/stop_signals.h"
 #include "delay/plot.h"
@@ -119,12 +119,6 @@ delay::Measurement measured(Reader& bag, const DelayOptions& options, std::ostre
   return meter.measure();
 }
 
-void write_plot(const std::string& path, const delay::Measurement& measurement, const std::string& title) {
-  std::ofstream file(path);
-  file << delay::to_svg(measurement, title);
-  if (!file.flush()) throw BagError(path + ": cannot be written");
-}
-
 }  // namespace
 
 delay::Measurement measure_delay(const std::string& path, const DelayOptions& options, cli::LongRun& run,
@@ -154,10 +148,7 @@ DelayCommand::DelayCommand(CLI::App& app)
       ->check(CLI::Range(delay::least_most_delay, delay::most_most_delay))
       ->type_name("S");
   command_->add_option("--plot", plot_, "Draw the motion of both, and the correlation")
-      ->check([](const std::string& path) {
-        const bool fits = path.size() > 4 && path.substr(path.size() - 4) == ".svg";
-        return fits ? std::string() : "\"" + path + "\": the name must end in .svg";
-      })
+      ->check(cli::is_svg)
       ->type_name("FILE.svg");
   command_->add_flag("--json", as_json_, "A JSON object");
 }
@@ -180,7 +171,7 @@ cli::ExitCode DelayCommand::run() {
   if (plot_ && measurement.speeds.empty()) {
     std::cerr << "trk: " << *plot_ << " is not drawn: there is nothing to compare\n";
   } else if (plot_) {
-    write_plot(*plot_, measurement, summary);
+    cli::write_whole_file(*plot_, delay::to_svg(measurement, summary));
   }
   const cli::ExitCode written = out.finish(std::cerr);
   return written != cli::exit_good || !measurement.cannot_tell ? written : cli::exit_failed;

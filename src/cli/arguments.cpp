@@ -1,7 +1,9 @@
 #include "arguments.h"
 
 #include <exception>
+#include <fstream>
 #include <iostream>
+#include <stdexcept>
 
 #include "base/process.h"
 #include "trk_bridge/wire/format.h"
@@ -14,8 +16,8 @@ transport::SourceEndpoint source_from(const std::string& url) {
   return *std::move(endpoint);
 }
 
-transport::SinkEndpoint sink_from(const std::string& url) {
-  auto endpoint = endpoints::parse_sink(url);
+transport::SinkEndpoint sink_from(const std::string& url, const std::string& default_preset) {
+  auto endpoint = endpoints::parse_sink(url, default_preset);
   if (!endpoint) throw CLI::ValidationError(endpoint.error());
   return *std::move(endpoint);
 }
@@ -30,6 +32,17 @@ endpoints::Preset preset_from(const std::string& name) {
   auto preset = endpoints::find_preset(name);
   if (!preset) throw CLI::ValidationError("--preset: " + preset.error());
   return *std::move(preset);
+}
+
+std::string is_svg(const std::string& path) {
+  const bool fits = path.size() > 4 && path.substr(path.size() - 4) == ".svg";
+  return fits ? std::string() : "\"" + path + "\": the name must end in .svg";
+}
+
+void write_whole_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
 ExitCode run_program(CLI::App& app, int argc, const char* const* argv, const std::function<ExitCode()>& run) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "file/scheme.h"
+#include "freed/scheme.h"
 #include "presets.h"
 #include "shm/scheme.h"
 #include "transport/scheme.h"
@@ -29,7 +30,7 @@ using transport::TransportError;
 using transport::Url;
 
 /// Every scheme there is.
-constexpr std::array<const Scheme*, 3> schemes{&trk::udp_scheme, &shm::scheme, &file::scheme};
+constexpr std::array<const Scheme*, 4> schemes{&trk::udp_scheme, &freed::scheme, &shm::scheme, &file::scheme};
 
 std::string usages() {
   std::string text;
@@ -89,6 +90,22 @@ std::optional<Delay> delay_from(std::string_view text) {
   return std::nullopt;
 }
 
+/// Adds the preset's options of the scheme, where the URL does not say otherwise. The error is that it is for another
+/// scheme.
+tl::expected<void, std::string> follow(const Preset& preset, Url& url) {
+  if (preset.scheme.empty()) return {};
+  if (preset.scheme != url.scheme) {
+    return tl::make_unexpected("the preset " + preset.name + " is for " + preset.scheme + ", and not for " +
+                               url.scheme);
+  }
+  for (const auto& option : preset.options) {
+    const bool is_given =
+        std::any_of(url.options.begin(), url.options.end(), [&](const auto& given) { return given.key == option.key; });
+    if (!is_given) url.options.push_back(option);
+  }
+  return {};
+}
+
 /// Takes the options of every sink out of the URL.
 tl::expected<SinkForm, std::string> extract_form(Url& url) {
   const auto extract = [&url](std::string_view key) -> std::optional<std::string> {
@@ -116,6 +133,7 @@ tl::expected<SinkForm, std::string> extract_form(Url& url) {
     if (!preset) return tl::make_unexpected("option preset: " + preset.error());
     form.format = preset->format;
     form.sends_id = preset->sends_id;
+    if (const auto followed = follow(*preset, url); !followed) return tl::make_unexpected(followed.error());
   }
   if (id) {
     constexpr std::uint32_t largest = std::numeric_limits<std::uint32_t>::max();
@@ -148,9 +166,18 @@ tl::expected<Endpoint, std::string> located(std::string_view url, tl::expected<E
   return endpoint;
 }
 
-tl::expected<SinkEndpoint, std::string> sink_endpoint(std::string_view text) {
+tl::expected<SinkEndpoint, std::string> sink_endpoint(std::string_view text, std::string_view default_preset) {
   auto url = parsed(text);
   if (!url) return tl::make_unexpected(url.error());
+  const auto& options = url->url.options;
+  const bool has_format = std::any_of(options.begin(), options.end(), [](const auto& option) {
+    return option.key == "format" || option.key == "preset";
+  });
+  if (!has_format && !default_preset.empty()) {
+    const auto preset = find_preset(default_preset);
+    if (!preset) return tl::make_unexpected(preset.error());
+    if (const auto followed = follow(*preset, url->url); !followed) return tl::make_unexpected(followed.error());
+  }
   const auto form = extract_form(url->url);
   if (!form) return tl::make_unexpected(form.error());
   auto endpoint = url->scheme->sink(url->url);
@@ -170,7 +197,9 @@ tl::expected<SourceEndpoint, std::string> parse_source(std::string_view url) {
   return located(url, source_endpoint(url));
 }
 
-tl::expected<SinkEndpoint, std::string> parse_sink(std::string_view url) { return located(url, sink_endpoint(url)); }
+tl::expected<SinkEndpoint, std::string> parse_sink(std::string_view url, std::string_view default_preset) {
+  return located(url, sink_endpoint(url, default_preset));
+}
 
 std::unique_ptr<transport::Source> open_source(std::string_view url, double field_rate) {
   const auto endpoint = parse_source(url);

@@ -11,8 +11,8 @@
 namespace trk_bridge::ros1 {
 namespace {
 
-void read_sinks(ParameterReader& node, std::vector<transport::SinkEndpoint>& sinks) {
-  node.parsed_list("sinks", sinks, endpoints::parse_sink);
+void read_sinks(ParameterReader& node, const std::string& preset, std::vector<transport::SinkEndpoint>& sinks) {
+  node.parsed_list("sinks", sinks, [&preset](const std::string& url) { return endpoints::parse_sink(url, preset); });
   if (!node.are_sound({"sinks"})) return;
   if (sinks.empty()) {
     node.fault("sinks", "[]", "must be given: endpoint URLs such as udp://host:7000, shm:7 or file:take.trk");
@@ -23,20 +23,22 @@ void read_sinks(ParameterReader& node, std::vector<transport::SinkEndpoint>& sin
   }
 }
 
-void read_form(ParameterReader& node, transport::SinkForm& form) {
+/// Gives the name of the preset; empty where there is none.
+std::string read_form(ParameterReader& node, transport::SinkForm& form) {
   node.parsed("format", form.format, wire::format_from_words);
   std::optional<endpoints::Preset> preset;
   node.parsed("preset", preset, endpoints::find_preset);
   node.id("id", form.id);
-  if (!preset) return;
+  if (!preset) return {};
   if (node.has("format")) {
     if (node.are_sound({"format"})) {
       node.fault("preset", shown(preset->name), "must not be given with format, which it stands for");
     }
-    return;
+    return {};
   }
   form.format = preset->format;
   form.sends_id = preset->sends_id;
+  return preset->name;
 }
 
 std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
@@ -124,9 +126,8 @@ RosToTrkParameters read_ros_to_trk_parameters(const XmlRpc::XmlRpcValue& tree, c
   parameters.name = parameters.camera_frame = camera_name;
   check_camera_name(camera_name, node);
   node.diagnostic_period();
-  read_sinks(node, parameters.sinks);
+  read_sinks(node, read_form(node, parameters.form), parameters.sinks);
   node.choice("input", parameters.input, {{"params", OutgoingInput::params}, {"tf", OutgoingInput::tf}});
-  read_form(node, parameters.form);
   read_delay(node, parameters.form);
   read_pace(node, parameters);
   node.integer("queue_size", parameters.queue_size, {1, 100000});

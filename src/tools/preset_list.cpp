@@ -9,10 +9,23 @@
 
 namespace trk_bridge::tools {
 
+namespace {
+
+/// As behind a URL's place.
+std::string options_text(const endpoints::Preset& preset) {
+  std::string text;
+  for (const auto& option : preset.options) text += (text.empty() ? "?" : "&") + option.key + "=" + option.value;
+  return text;
+}
+
+}  // namespace
+
 void list_presets(const std::vector<endpoints::Preset>& known, std::ostream& out) {
   for (const auto& preset : known) {
     out << preset.name << '\n' << "  sends   " << wire::format_to_words(preset.format);
-    out << (preset.sends_id ? "" : "; never an id") << '\n' << "  quirks  " << preset.quirks << '\n';
+    out << (preset.sends_id ? "" : "; never an id") << '\n';
+    if (!preset.scheme.empty()) out << "  sink    " << preset.scheme << "://HOST:PORT" << options_text(preset) << '\n';
+    out << "  quirks  " << preset.quirks << '\n';
   }
 }
 
@@ -29,6 +42,10 @@ void list_presets_as_json(const std::vector<endpoints::Preset>& known, std::ostr
     writer.String(wire::format_to_words(preset.format));
     writer.Key("sends_id");
     writer.Bool(preset.sends_id);
+    writer.Key("scheme");
+    writer.String(preset.scheme);
+    writer.Key("options");
+    writer.String(options_text(preset));
     writer.Key("quirks");
     writer.String(preset.quirks);
     writer.EndObject();

@@ -10,7 +10,7 @@ namespace trk_bridge::tools {
 
 /// For a person: name, format words and what to know of the receiver.
 void list_presets(const std::vector<endpoints::Preset>&, std::ostream& out);
-/// A JSON object a line: name, format, format_words, sends_id, quirks.
+/// A JSON object a line: name, format, format_words, sends_id, scheme, options, quirks.
 void list_presets_as_json(const std::vector<endpoints::Preset>&, std::ostream& out);
 
 }  // namespace trk_bridge::tools

@@ -2,6 +2,7 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,12 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/arguments.h"
+#include "cli/checked_output.h"
 #include "cli/exit_code.h"
 #include "cli/stop_signals.h"
 #include "dump.h"
 #include "endpoints/presets.h"
+#include "lens_table.h"
 #include "monitor/monitor.h"
 #include "preset_list.h"
 #include "relay.h"
@@ -106,7 +109,7 @@ class RelayCommand {
     if (preset_name_) follow(cli::preset_from(*preset_name_));
     const auto from = cli::source_from(source_url_);
     std::vector<transport::SinkEndpoint> to;
-    for (const auto& url : sink_urls_) to.push_back(checked(cli::sink_from(url)));
+    for (const auto& url : sink_urls_) to.push_back(checked(cli::sink_from(url, preset_name_.value_or(""))));
 
     const auto source = from.open(default_field_rate);
     FanOut sinks(std::cerr, from.can_wait ? [] { return !cli::StopSignals::stopped(); } : std::function<bool()>());
@@ -166,6 +169,32 @@ class MonitorCommand {
   std::optional<double> seconds_;
 };
 
+class LensCommand {
+ public:
+  explicit LensCommand(CLI::App& app)
+      : command_(app.add_subcommand("lens", "Check a lens table, which Free-D needs, and say what is in it")) {
+    command_->add_option("FILE.yaml", path_, "The table")->required();
+    command_->add_option("--plot", plot_, "Draw focal length, centre shift and distortion over zoom")
+        ->check(cli::is_svg)
+        ->type_name("FILE.svg");
+  }
+  bool is_asked_for() const { return command_->parsed(); }
+
+  cli::ExitCode run() const {
+    const auto table = lens::Table::load(path_);
+    if (!table) throw std::runtime_error(table.error());
+    cli::CheckedOutput out(std::cout);
+    for (const auto& line : lines_of(**table)) out.line(line, false);
+    if (plot_) cli::write_whole_file(*plot_, to_svg(**table, path_));
+    return out.finish(std::cerr);
+  }
+
+ private:
+  CLI::App* command_;
+  std::string path_;
+  std::optional<std::string> plot_;
+};
+
 class PresetsCommand {
  public:
   explicit PresetsCommand(CLI::App& app)
@@ -200,6 +229,7 @@ int main(int argc, char** argv) {
   DumpCommand dump_command(app);
   RelayCommand relay_command(app);
   MonitorCommand monitor_command(app);
+  LensCommand lens_command(app);
   PresetsCommand presets_command(app);
 #ifdef TRK_BRIDGE_WITH_BAG
   bag::Command bag_command(app);
@@ -214,6 +244,7 @@ int main(int argc, char** argv) {
 #endif
     if (dump_command.is_asked_for()) return dump_command.run();
     if (relay_command.is_asked_for()) return relay_command.run();
+    if (lens_command.is_asked_for()) return lens_command.run();
     if (monitor_command.is_asked_for()) return monitor_command.run();
     return presets_command.run();
   });

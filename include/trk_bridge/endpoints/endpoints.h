@@ -16,8 +16,10 @@ namespace trk_bridge::endpoints {
 tl::expected<transport::SourceEndpoint, std::string> parse_source(std::string_view url);
 /// Reads a URL to write to, likewise. `format=` (words with commas or + between them), `preset=`, `id=`,
 /// `delay=` and `lead=` (seconds) are options of every scheme. In the path of a recording, %Y and others stand for the
-/// time (file/recording_name.h).
-tl::expected<transport::SinkEndpoint, std::string> parse_sink(std::string_view url);
+/// time (file/recording_name.h). Of `default_preset` (its name, or empty), only the options of its scheme count, and
+/// only for a URL that says neither format nor preset.
+tl::expected<transport::SinkEndpoint, std::string> parse_sink(std::string_view url,
+                                                              std::string_view default_preset = {});
 
 /// Reads a URL and opens it: a wrong URL is a TransportError, too. `field_rate` as in SourceEndpoint::open.
 std::unique_ptr<transport::Source> open_source(std::string_view url, double field_rate = 50.0);

@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "trk_bridge/endpoints/endpoints.h"
+
 namespace trk_bridge::endpoints {
 namespace {
 
@@ -20,7 +22,8 @@ TEST(Presets, AreThoseOfTheFieldWithTheirMasks) {
       {"pixotope", 0x001},       {"disguise", 0x001},   {"hippotizer", 0x001}, {"unreal_trackmen", 0x001},
       {"aximmetry", 0x09C},      {"brainstorm", 0x231}, {"deltatre", 0x031},   {"marketgraph", 0x09E},
       {"marketgraph_v2", 0x29E}, {"monarch", 0x0B9},    {"nsynk", 0x019},      {"orad", 0x2BC},
-      {"rt_soft", 0x239}};
+      {"rt_soft", 0x239},        {"freed", 0x001},      {"freed_sony", 0x001}, {"freed_zcam", 0x001},
+      {"freed_vizrt", 0x001},    {"freed_mosys", 0x001}};
   std::map<std::string, std::uint32_t> found;
   for (const auto& preset : presets()) found[preset.name] = preset.format;
   EXPECT_EQ(found, expected);
@@ -50,6 +53,27 @@ TEST(Presets, AreThoseOfTheFileThatIsInstalled) {
     EXPECT_EQ((*read)[i].format, presets()[i].format);
     EXPECT_EQ((*read)[i].sends_id, presets()[i].sends_id);
     EXPECT_EQ((*read)[i].quirks, presets()[i].quirks);
+  }
+}
+
+TEST(Presets, OfASchemeOfItsOwnSetItsOptions) {
+  for (const auto& preset : presets()) {
+    EXPECT_EQ(preset.scheme, preset.name.rfind("freed", 0) == 0 ? "freed" : "") << preset.name;
+    if (preset.scheme.empty()) continue;
+    const std::string url = preset.scheme + "://127.0.0.1:1?lens=none";
+    EXPECT_TRUE(parse_sink(url + "&preset=" + preset.name)) << preset.name;
+    EXPECT_TRUE(parse_sink(url, preset.name)) << preset.name;
+  }
+  // Only zcam needs no lens table.
+  EXPECT_TRUE(parse_sink("freed://127.0.0.1:1?preset=freed_zcam"));
+  EXPECT_TRUE(parse_sink("freed://127.0.0.1:1", "freed_zcam"));
+  EXPECT_FALSE(parse_sink("freed://127.0.0.1:1?preset=freed_vizrt", "freed_zcam")) << "the URL's own counts";
+  EXPECT_FALSE(parse_sink("freed://127.0.0.1:1?preset=freed_zcam&profile=sony")) << "the URL's own option counts";
+  EXPECT_TRUE(parse_sink("udp://127.0.0.1:1?preset=disguise", "freed_zcam"));
+  for (const auto& refused :
+       {parse_sink("udp://127.0.0.1:1?preset=freed_zcam"), parse_sink("udp://127.0.0.1:1", "freed_zcam")}) {
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error(), HasSubstr("the preset freed_zcam is for freed, and not for udp"));
   }
 }
 
@@ -100,6 +124,18 @@ TEST(PresetsFromYaml, ErrorsNameTheLine) {
   EXPECT_THAT(error_of(good + "B c:\n  format: euler\n"), StartsWith("p.yaml:5: name of a preset 'B c': must be"));
   EXPECT_THAT(error_of(good + "b: euler\n"), StartsWith("p.yaml:5: preset b: must be a map"));
   EXPECT_THAT(error_of(good + "b: {format: euler\n"), StartsWith("p.yaml:"));
+}
+
+TEST(PresetsFromYaml, SchemeAndOptions) {
+  const std::string one = "a:\n  format: euler\n  sends_id: true\n  quirks: none\n";
+  const auto read = presets_from_yaml(one + "  scheme: freed\n  options: profile=sony&unwrap=0\n", "p.yaml");
+  ASSERT_TRUE(read) << read.error();
+  EXPECT_EQ(read->front().scheme, "freed");
+  ASSERT_EQ(read->front().options.size(), 2U);
+  EXPECT_EQ(read->front().options[1].key, "unwrap");
+  EXPECT_EQ(read->front().options[1].value, "0");
+  EXPECT_THAT(error_of(one + "  options: profile=sony\n"), StartsWith("p.yaml:5: preset a: options: need the scheme"));
+  EXPECT_THAT(error_of(one + "  scheme: freed\n  options: sony\n"), StartsWith("p.yaml:6: preset a: options: option"));
 }
 
 TEST(PresetsFromYaml, WhatIsNoMapIsRefused) {

@@ -1,0 +1,50 @@
+// Records to Free-D's datagrams.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "lens/table.h"
+#include "message.h"
+#include "profile.h"
+#include "transport/datagram.h"
+#include "trk_bridge/camera/converter.h"
+
+namespace trk_bridge::freed {
+
+struct EncoderOptions {
+  Profile profile = Profile::generic;
+  std::shared_ptr<const lens::Table> table;  ///< null: zoom and focus are 0, unless the profile tells the lens itself
+  bool unwrap = true;                        ///< pan goes on past 180 degrees as far as the message reaches
+};
+
+/// One datagram for parameters of any format, none for constants: they are only remembered for formats that need them.
+/// Cameras are told apart by their ids, which have to be 1 to 255.
+class Encoder final : public transport::Encoder {
+ public:
+  explicit Encoder(EncoderOptions options) : options_(std::move(options)) {}
+
+  tl::expected<void, transport::Fault> begin(const wire::CameraParams&) noexcept override;
+  tl::expected<void, transport::Fault> begin(const wire::CameraConstants&) noexcept override;
+  std::optional<std::string_view> next() noexcept override;
+
+ private:
+  struct Camera {
+    camera::Converter converter;
+    std::optional<std::int32_t> pan;  // of the message before
+    std::uint64_t frames = 0;
+  };
+
+  tl::expected<void, transport::Fault> set_pose(const wire::Euler&, const Camera&, Message&) const noexcept;
+  tl::expected<void, transport::Fault> set_optics(const camera::Lens&, Message&) const noexcept;
+
+  const EncoderOptions options_;
+  std::array<Camera, 256> cameras_;  // by id
+  Bytes bytes_{};
+  bool has_datagram_ = false;
+};
+
+}  // namespace trk_bridge::freed

@@ -1,0 +1,107 @@
+#include "scheme.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace trk_bridge::freed {
+namespace {
+
+using transport::Direction;
+using transport::Option;
+
+constexpr std::string_view no_table = "none";
+
+template <typename Settings>
+bool assign_profile(const std::string& value, Settings& settings) {
+  return transport::assign(profile_of(value), settings.profile);
+}
+
+template <typename Settings>
+bool assign_lens(const std::string& value, Settings& settings) {
+  settings.lens = value;
+  return !value.empty();
+}
+
+constexpr std::array<Option<SourceSettings>, 3> source_options{{
+    {"profile", profiles_allowed, assign_profile<SourceSettings>},
+    {"lens", "the path of a lens table and none", assign_lens<SourceSettings>},
+    {"checksum", "strict and lenient",
+     [](const std::string& v, SourceSettings& s) {
+       s.lenient = v == "lenient";
+       return s.lenient || v == "strict";
+     }},
+}};
+
+constexpr std::array<Option<SinkSettings>, 3> sink_options{{
+    {"profile", profiles_allowed, assign_profile<SinkSettings>},
+    {"lens", "the path of a lens table and none", assign_lens<SinkSettings>},
+    {"unwrap", transport::switch_allowed,
+     [](const std::string& v, SinkSettings& s) { return transport::assign_switch(v, s.unwrap); }},
+}};
+
+/// Loads the table that `settings.lens` names.
+template <typename Settings>
+tl::expected<Settings, std::string> with_table(Settings settings) {
+  if (settings.lens.empty() || settings.lens == no_table) return settings;
+  auto table = lens::Table::load(settings.lens);
+  if (!table) return tl::make_unexpected("option lens: " + table.error());
+  settings.table = *std::move(table);
+  return settings;
+}
+
+}  // namespace
+
+tl::expected<SourceSettings, std::string> source_settings(const transport::Url& url) {
+  SourceSettings settings;
+  if (const auto place = transport::set_place(url, settings); !place) return tl::make_unexpected(place.error());
+  const auto set =
+      transport::set_options(url, Direction::read, settings, transport::keys_of(transport::send_options, sink_options),
+                             transport::receive_options, source_options);
+  if (!set) return tl::make_unexpected(set.error());
+  return with_table(std::move(settings));
+}
+
+tl::expected<SinkSettings, std::string> sink_settings(const transport::Url& url) {
+  SinkSettings settings;
+  if (const auto place = transport::set_place(url, settings); !place) return tl::make_unexpected(place.error());
+  const auto set = transport::set_options(url, Direction::write, settings,
+                                          transport::keys_of(transport::receive_options, source_options),
+                                          transport::send_options, sink_options);
+  if (!set) return tl::make_unexpected(set.error());
+  const bool has_period = std::any_of(url.options.begin(), url.options.end(),
+                                      [](const auto& option) { return option.key == "constants_period"; });
+  if (has_period) return tl::make_unexpected(std::string("option constants_period: Free-D has no constants to repeat"));
+  settings.constants_period = 0;
+  if (settings.lens.empty() && !tells_lens(settings.profile)) {
+    return tl::make_unexpected(
+        std::string("option lens is missing: zoom and focus of this profile are counts of encoders, which a lens table "
+                    "gives (lens=FILE.yaml); lens=none sends 0 for both"));
+  }
+  return with_table(std::move(settings));
+}
+
+const transport::Scheme scheme{"freed", "freed://HOST:PORT",
+                               [](const transport::Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
+                                 auto settings = source_settings(url);
+                                 if (!settings) return tl::make_unexpected(settings.error());
+                                 transport::SourceEndpoint endpoint;
+                                 endpoint.place = transport::place_of(*settings);
+                                 endpoint.over_network = true;
+                                 endpoint.open = [settings = *settings](double) {
+                                   return transport::open_datagram_source(settings,
+                                                                          std::make_unique<Decoder>(settings));
+                                 };
+                                 return endpoint;
+                               },
+                               [](const transport::Url& url) -> tl::expected<transport::SinkEndpoint, std::string> {
+                                 auto settings = sink_settings(url);
+                                 if (!settings) return tl::make_unexpected(settings.error());
+                                 transport::SinkEndpoint endpoint;
+                                 endpoint.open = [settings = *settings] {
+                                   return transport::open_datagram_sink(settings, std::make_unique<Encoder>(settings));
+                                 };
+                                 return endpoint;
+                               }};
+
+}  // namespace trk_bridge::freed

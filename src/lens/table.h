@@ -1,0 +1,91 @@
+// Lens tables: what a lens does at the counts of its encoders (doc/free_d.md, "Lens tables").
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "trk_bridge/camera/camera.h"
+#include "trk_bridge/wire/record.h"
+
+namespace trk_bridge::lens {
+
+/// Positions of the encoders, in their counts.
+struct Position {
+  double zoom = 0, focus = 0;
+};
+
+/// How a table fills what lies between its points over zoom. Over focus it is linear.
+enum class Interpolation : std::uint8_t {
+  pchip,  ///< piecewise cubic, as smooth as points allow, never beyond them (Fritsch and Carlson)
+  linear,
+};
+
+/// One row of `points`: the lens at one position.
+struct Point {
+  Position at;
+  camera::Lens lens;  ///< without focdist and aperture
+};
+
+/// One row of `focus`.
+struct FocusPoint {
+  double count = 0;
+  double distance = 0;  ///< m
+};
+
+/// What a table has, as it stands in its file.
+struct Points {
+  Interpolation interpolation = Interpolation::pchip;
+  std::vector<Point> points;
+  std::vector<FocusPoint> focus;                   ///< may be empty: focus distances are not known
+  std::optional<wire::CameraConstants> constants;  ///< of the camera that the lens was measured on
+};
+
+/// Immutable, so any thread. Its functions but for those that make one do not allocate.
+///
+/// A position beyond the first or last point by at most a hundredth of the table's range is taken for that point, since
+/// encoders have some play at their stops. Farther out nothing is known: there is no extrapolation.
+class Table {
+ public:
+  /// Reads a table. The error begins with `file_name` and the line (`lens.yaml:12: …`).
+  static tl::expected<Table, std::string> from_yaml(const std::string& yaml, const std::string& file_name);
+  /// The same of a file. The error names the path.
+  static tl::expected<std::shared_ptr<const Table>, std::string> load(const std::string& path);
+
+  /// The lens at a position, aperture 0 and, where the table has no focus distances, focdist 0. None beyond the table.
+  [[nodiscard]] std::optional<camera::Lens> lens_at(const Position&) const noexcept;
+  /// The way back, of image distance and focdist, to a quarter of a count. A focdist of 0 ("not given" in trk) is taken
+  /// for the farthest. None beyond the table.
+  [[nodiscard]] std::optional<Position> position_of(const camera::Lens&) const noexcept;
+
+  /// The first and the last position.
+  Position first() const noexcept { return {zooms_.front(), focus_range().first}; }
+  Position last() const noexcept { return {zooms_.back(), focus_range().second}; }
+  bool has_focus() const noexcept { return focuses_.size() > 1 || !distances_.empty(); }
+  bool has_distances() const noexcept { return !distances_.empty(); }
+  const Points& points() const noexcept { return points_; }
+  const std::optional<wire::CameraConstants>& constants() const noexcept { return points_.constants; }
+
+ private:
+  /// What is interpolated over zoom: image distance, centre shift x and y, k1, k2.
+  using Values = Eigen::Array<double, 5, 1>;
+  struct Knot {
+    Values value, slope;  // slope: per count of zoom
+  };
+
+  Table() = default;
+  void prepare(Points points);
+  std::pair<double, double> focus_range() const noexcept;
+  Values slice_at(std::size_t focus, double zoom) const noexcept;
+  Values values_at(const Position&) const noexcept;
+
+  Points points_;
+  std::vector<double> zooms_, focuses_;  // ascending; one focus where it does not matter
+  std::vector<Knot> knots_;              // zooms_.size() for each of focuses_
+  std::vector<FocusPoint> distances_;    // by count
+};
+
+}  // namespace trk_bridge::lens
