@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "trackmen.h"
 #include "trk_bridge/transport/sample.h"
 
 namespace trk_bridge::trk {
@@ -15,14 +16,26 @@ void DatagramDecoder::begin(std::string_view datagram, const transport::Sender& 
 
 transport::Decoder::Next DatagramDecoder::next(transport::Sample& into, transport::Fault& fault) noexcept {
   if (std::exchange(is_given_, true)) return Next::none;
-  wire::DecodedForm form;
-  wire::Fault why{};
-  if (!decode(into.record, form, why)) {
-    fault = why;
-    return Next::fault;
+  if (is_trackmen(datagram_)) {
+    const auto params = trackmen_params(datagram_);
+    if (!params) {
+      fault = params.error();
+      return Next::fault;
+    }
+    into.record = *params;
+    into.origin = "binary trackmen";
+  } else {
+    wire::DecodedForm form;
+    wire::Fault why{};
+    if (!decode(into.record, form, why)) {
+      fault = why;
+      return Next::fault;
+    }
+    into.origin = transport::origin_of(form.form, form.layout_guessed);
   }
-  into.origin = transport::origin_of(form.form, form.layout_guessed);
   into.has_counter = into.has_lens = true;
+  into.encoders = {};
+  into.doubt = "";
   into.sample_time.reset();
   into.time_code.reset();
   return Next::sample;

@@ -12,7 +12,7 @@
 namespace trk_bridge::trk {
 
 /// Decodes with what each sender's records have shown of its layout so far. Remembers the senders of good records only;
-/// past `capacity` the one that was silent longest gives way.
+/// past `capacity` the one that was silent longest gives way. TrackMen's packets are told by their magic.
 class DatagramDecoder final : public transport::Decoder {
  public:
   static constexpr std::size_t capacity = 64;

@@ -55,10 +55,14 @@ TEST(DatagramDecoder, OneSampleADatagram) {
   sample.sample_time = 5;
   sample.time_code = base::CountedTimeCode{};
   sample.arrival = 7;
+  sample.encoders.zoom = 5;
+  sample.doubt = "of another";
   ASSERT_EQ(first_of(decoder, test::datagram(test::params(12, 3)), sender(1), sample, fault), Next::sample);
   EXPECT_EQ(std::get<wire::CameraParams>(sample.record), test::params(12, 3));
   EXPECT_STREQ(sample.origin, "ASCII");
   EXPECT_TRUE(sample.has_counter && sample.has_lens);
+  EXPECT_EQ(sample.encoders, transport::LensEncoders{});
+  EXPECT_STREQ(sample.doubt, "");
   EXPECT_FALSE(sample.sample_time || sample.time_code) << "trk has no time";
   EXPECT_EQ(sample.arrival, 7) << "it is the socket's to know";
 }
