@@ -28,7 +28,7 @@ find_package(image_transport REQUIRED)
 find_package(rviz REQUIRED)
 find_package(Qt5 ${rviz_QT_VERSION} REQUIRED COMPONENTS Core Gui Widgets)
 
-add_message_files(DIRECTORY msg FILES CameraConstants.msg CameraParams.msg TimeCode.msg)
+add_message_files(DIRECTORY msg FILES CameraConstants.msg CameraParams.msg LensEncoders.msg TimeCode.msg)
 generate_messages(DEPENDENCIES std_msgs)
 
 catkin_package(

@@ -22,6 +22,7 @@ CameraOutput::CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&
   params_ = node.advertise<trk_bridge::CameraParams>("params", queue);
   constants_ = node.advertise<trk_bridge::CameraConstants>("constants", queue, /*latch=*/true);
   time_code_ = node.advertise<trk_bridge::TimeCode>("time_code", queue);
+  lens_encoders_ = node.advertise<trk_bridge::LensEncoders>("lens_encoders", queue);
   if (parameters.options.publish_camera_info)
     camera_info_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", queue);
   statistics_.store(pipeline_.statistics());
@@ -50,6 +51,7 @@ void CameraOutput::publish() {
   if (update_.params) params_.publish(messages_.params());
   if (update_.constants) constants_.publish(messages_.constants());
   if (update_.time_code) time_code_.publish(messages_.time_code());
+  if (update_.encoders) lens_encoders_.publish(messages_.lens_encoders());
 }
 
 void CameraOutput::publish_camera_info() {

@@ -23,9 +23,9 @@ namespace trk_bridge::nodes {
 /// thread, describe() to the diagnostics' one.
 class CameraOutput {
  public:
-  /// Advertises `params`, `constants`, `camera_info` and `time_code` in the namespace of `node`, and publishes the
-  /// parameter's constants where there are any. `markers` is a topic that cameras share; it is used only where
-  /// publish_markers is set.
+  /// Advertises `params`, `constants`, `camera_info`, `time_code` and `lens_encoders` in the namespace of `node`, and
+  /// publishes the parameter's constants where there are any. `markers` is a topic that cameras share; it is used only
+  /// where publish_markers is set.
   CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&, std::optional<double> field_rate, int queue_size,
                const ::ros::Publisher& markers);
 
@@ -59,7 +59,7 @@ class CameraOutput {
   ros1::CameraMessages messages_;  // of update_
   std::optional<ros1::CameraMarkers> markers_;
   double field_rate_;
-  ::ros::Publisher params_, constants_, camera_info_, time_code_, marker_topic_;
+  ::ros::Publisher params_, constants_, camera_info_, time_code_, lens_encoders_, marker_topic_;
   base::Snapshot<bridge::CameraStatistics> statistics_;
   base::Snapshot<bridge::MarkerStatistics> marker_statistics_;
   StatusReporter<bridge::CameraReport> reporter_;

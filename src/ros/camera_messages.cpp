@@ -30,7 +30,8 @@ CameraMessages::CameraMessages(const CameraFrames& frames)
     : params_(in_frame<trk_bridge::CameraParams>(frames.studio)),
       constants_(in_frame<trk_bridge::CameraConstants>(frames.camera)),
       camera_info_(camera_info_in(frames.optical)),
-      time_code_(in_frame<trk_bridge::TimeCode>(frames.studio)) {
+      time_code_(in_frame<trk_bridge::TimeCode>(frames.studio)),
+      lens_encoders_(in_frame<trk_bridge::LensEncoders>(frames.studio)) {
   transform_.header.frame_id = frames.studio;
   transform_.child_frame_id = frames.camera;
 }
@@ -41,6 +42,11 @@ void CameraMessages::make(const bridge::CameraUpdate& update) {
   if (update.params) fill(params_, *update.params, stamp);
   if (update.calibration) make_camera_info(update);
   if (update.time_code) fill(time_code_, *update.time_code, stamp);
+  if (update.encoders) {
+    auto& message = lens_encoders_.renew();
+    to_msg(update.encoders->id, update.encoders->counts, message);
+    message.header.stamp = stamp;
+  }
   if (update.pose) {
     transform_.transform = to_transform(*update.pose);
     transform_.header.stamp = stamp;

@@ -5,6 +5,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
+#include <trk_bridge/LensEncoders.h>
 #include <trk_bridge/TimeCode.h>
 
 #include "bridge/camera_pipeline.h"
@@ -29,6 +30,7 @@ class CameraMessages {
   const auto& constants() const noexcept { return constants_.current(); }
   const auto& camera_info() const noexcept { return camera_info_.current(); }
   const auto& time_code() const noexcept { return time_code_.current(); }
+  const auto& lens_encoders() const noexcept { return lens_encoders_.current(); }
   const geometry_msgs::TransformStamped& transform() const noexcept { return transform_; }
 
  private:
@@ -36,6 +38,7 @@ class CameraMessages {
   MessagePool<trk_bridge::CameraConstants> constants_;
   MessagePool<sensor_msgs::CameraInfo> camera_info_;
   MessagePool<trk_bridge::TimeCode> time_code_;
+  MessagePool<trk_bridge::LensEncoders> lens_encoders_;
   geometry_msgs::TransformStamped transform_;
 };
 

@@ -46,6 +46,16 @@ void to_msg(const base::CountedTimeCode& time_code, trk_bridge::TimeCode& messag
   message.rate = time_code.rate;
 }
 
+void to_msg(std::uint32_t id, const transport::LensEncoders& encoders, trk_bridge::LensEncoders& message) {
+  message.id = id;
+  message.zoom_known = static_cast<std::uint8_t>(encoders.zoom.has_value());
+  message.zoom = encoders.zoom.value_or(0);
+  message.focus_known = static_cast<std::uint8_t>(encoders.focus.has_value());
+  message.focus = encoders.focus.value_or(0);
+  message.iris_known = static_cast<std::uint8_t>(encoders.iris.has_value());
+  message.iris = encoders.iris.value_or(0);
+}
+
 void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& message) {
   const auto& k = calibration.k;
   const auto& distortion = calibration.distortion;

@@ -7,10 +7,12 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
+#include <trk_bridge/LensEncoders.h>
 #include <trk_bridge/TimeCode.h>
 
 #include "trk_bridge/base/time_code.h"
 #include "trk_bridge/camera/calibration.h"
+#include "trk_bridge/transport/sample.h"
 #include "trk_bridge/wire/record.h"
 
 namespace trk_bridge::ros1 {
@@ -20,6 +22,9 @@ void to_msg(const wire::CameraParams& params, trk_bridge::CameraParams& message)
 void to_msg(const wire::CameraConstants& constants, trk_bridge::CameraConstants& message);
 
 void to_msg(const base::CountedTimeCode& time_code, trk_bridge::TimeCode& message);
+
+/// What is not known is 0.
+void to_msg(std::uint32_t id, const transport::LensEncoders& encoders, trk_bridge::LensEncoders& message);
 
 /// Size, model, D, K, R = identity, P = [K|0]; no binning, no region of interest. Allocates only when `message` is new
 /// or its model changes to a longer one.

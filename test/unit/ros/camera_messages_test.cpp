@@ -38,6 +38,22 @@ TEST(CameraMessages, OneStampForEverythingOfASampleInItsFrames) {
   EXPECT_EQ(messages.transform().transform.translation.z, 3);
 }
 
+TEST(CameraMessages, EncodersSayWhichOfThemAreKnown) {
+  CameraMessages messages({"studio", "crane1", "crane1_optical"});
+  auto update = whole(today);
+  update.encoders = bridge::CameraEncoders{5, {74565, -3, {}}};
+  messages.make(update);
+  const auto& message = *messages.lens_encoders();
+  EXPECT_EQ(message.header.stamp, ::ros::Time(1'700'000'000, 123'456'789));
+  EXPECT_EQ(message.header.frame_id, "studio");
+  EXPECT_EQ(message.id, 5u);
+  EXPECT_TRUE(message.zoom_known && message.focus_known);
+  EXPECT_EQ(message.zoom, 74565);
+  EXPECT_EQ(message.focus, -3);
+  EXPECT_FALSE(message.iris_known);
+  EXPECT_EQ(message.iris, 0);
+}
+
 TEST(CameraMessages, WhatIsNotInAnUpdateStays) {
   CameraMessages messages({"studio", "crane1", "crane1_optical"});
   messages.make(whole(today));

@@ -281,5 +281,17 @@ TEST(ReadOutgoing, TellsEveryUnknownKeyAndWrongType) {
                                       HasSubstr("~id = -1"), HasSubstr("~rate = 'fast': must be 1 to 1000 Hz")));
 }
 
+TEST(ReadOutgoing, APresetOfASchemeIsForItsSinksAlone) {
+  XmlRpcValue tree;
+  tree["sinks"][0] = "freed://127.0.0.1:40000";
+  EXPECT_THAT(message_of(tree), HasSubstr("option lens is missing")) << "the generic profile has counts";
+  tree["preset"] = "freed_zcam";
+  EXPECT_EQ(message_of(tree), "no error");
+  tree["sinks"][1] = "udp://127.0.0.1:7000";
+  EXPECT_THAT(message_of(tree), HasSubstr("the preset freed_zcam is for freed, and not for udp"));
+  tree["sinks"][1] = "udp://127.0.0.1:7000?preset=disguise";
+  EXPECT_EQ(message_of(tree), "no error") << "it has its own";
+}
+
 }  // namespace
 }  // namespace trk_bridge::ros1
