@@ -1,6 +1,8 @@
 #include "plot.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <sstream>
 
 namespace trk_bridge::plot {
@@ -63,6 +65,8 @@ class Rectangle {
 
   void curves(const std::vector<Curve>& curves) {
     double at = left + 240;
+    const auto named = std::count_if(curves.begin(), curves.end(), [](const Curve& c) { return !c.name.empty(); });
+    const double step = std::min(200.0, (width - right - at) / static_cast<double>(std::max<std::ptrdiff_t>(named, 1)));
     for (const Curve& curve : curves) {
       if (curve.has_dots) {
         for (const auto& [x, y] : curve.points) {
@@ -77,7 +81,7 @@ class Rectangle {
       svg_ << "<line x1='" << at << "' x2='" << at + 24 << "' y1='" << top_ - 12 << "' y2='" << top_ - 12 << "' "
            << curve.style << "/>\n";
       text(at + 30, top_ - 8, "start", curve.name);
-      at += 200;
+      at += step;
     }
   }
 

@@ -153,11 +153,10 @@ std::vector<std::string> lines_of(const lens::Table& table) {
 
 std::string to_svg(const lens::Table& table, const std::string& title) {
   const double radius = radius_of(table);
-  std::vector<plot::Panel> panels{
-      panel_over_zoom(table, "focal length, mm", {{"focal length", focal_length}}),
-      panel_over_zoom(table, "centre shift, mm", {{"x", shift_x}, {"y", shift_y}}),
-      panel_over_zoom(table, "distortion, %",
-                      {{"at " + text_of(radius) + " mm from the axis", distortion_at(radius)}})};
+  std::vector<plot::Panel> panels{panel_over_zoom(table, "focal length, mm", {{"focal length", focal_length}}),
+                                  panel_over_zoom(table, "centre shift, mm", {{"x", shift_x}, {"y", shift_y}}),
+                                  panel_over_zoom(table, "distortion " + text_of(radius) + " mm from the axis, %",
+                                                  {{"distortion", distortion_at(radius)}})};
   if (table.has_distances()) {
     const auto& focus = table.points().focus;
     plot::Curve curve{{}, "stroke='#1e78d2' stroke-width='2'", "distance"}, dots{{}, "fill='#1e78d2'", {}, true};
