@@ -1,6 +1,7 @@
 // CameraInfo to lens.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "least_squares.h"
 #include "numeric.h"
@@ -22,39 +23,60 @@ struct View {
   double reach = 0;
 };
 
-/// k1 and k2 of `lens` by least squares of the distorted radius.
-void fit_distortion(const View& view, Lens& lens) noexcept {
+/// An undistorted radius, and the slope of the distorted one there.
+struct Undistorted {
+  double radius = 0, slope = 0;
+};
+
+/// k1 and k2 of `lens` by least squares of the distorted radius. `undistort` (double to Undistorted) takes distorted
+/// radii up to `reach`, both in units of `unit` mm.
+template <typename Undistort>
+void fit_distortion(const Undistort& undistort, double reach, double unit, Lens& lens) noexcept {
   Terms terms(node_count, 2);
   Values wanted(node_count);
   for (int i = 0; i < node_count; ++i) {
     const double fraction = chebyshev_node(i, node_count);
-    const double distorted = view.reach * fraction;
-    const double undistorted = view.inverse.undistorted_radius(distorted);
-    // An error of the factor moves the distorted point by that much of the radius, as far as D lets it through.
-    const double weight = distorted * view.lens.radial.distorted(undistorted).slope;
+    const double distorted = reach * fraction;
+    const Undistorted undistorted = undistort(distorted);
+    // An error of the factor moves the distorted point by that much of the radius, as far as the lens lets it through.
+    const double weight = distorted * undistorted.slope;
     const double squared = fraction * fraction;
     terms(i, 0) = weight * squared;
     terms(i, 1) = weight * squared * squared;
-    wanted[i] = weight * (undistorted / distorted - 1);
+    wanted[i] = weight * (undistorted.radius / distorted - 1);
   }
   const Unknowns k = least_squares(terms, wanted);
-  const double unit = view.reach * lens.image_distance;
-  lens.k1 = k[0] / (unit * unit);
-  lens.k2 = k[1] / (unit * unit) / (unit * unit);
+  const double mm = reach * unit;
+  lens.k1 = k[0] / (mm * mm);
+  lens.k2 = k[1] / (mm * mm) / (mm * mm);
 }
 
-Result<double> radial_residual(const View& view, const Lens& lens) noexcept {
+/// The worst error of the distorted radius, in the same units.
+template <typename Undistort>
+Result<double> radial_residual(const Undistort& undistort, double reach, double unit, const Lens& lens) noexcept {
   Lens centered = lens;
   centered.center_shift.setZero();
   double worst = 0;
   for (int i = 1; i <= probe_count; ++i) {
-    const double wanted = view.reach * i / probe_count;
-    const auto chip =
-        distort(centered, Eigen::Vector2d(view.inverse.undistorted_radius(wanted) * lens.image_distance, 0));
+    const double wanted = reach * i / probe_count;
+    const auto chip = distort(centered, Eigen::Vector2d(undistort(wanted).radius * unit, 0));
     if (!chip) return tl::unexpected(chip.error());
-    worst = std::max(worst, std::abs(chip->x() / lens.image_distance - wanted));
+    worst = std::max(worst, std::abs(chip->x() / unit - wanted));
   }
-  return worst * std::max(view.lens.fx, view.lens.fy);
+  return worst;
+}
+
+/// Value and slope of 1 + c1 s + c2 s^2 + c3 s^3.
+ValueAndSlope cubic(const std::array<double, 3>& c, double s) noexcept {
+  return {1 + s * (c[0] + s * (c[1] + s * c[2])), c[0] + s * (2 * c[1] + s * 3 * c[2])};
+}
+
+/// Radius and slope (of the undistorted over the distorted one), mm; none where the distortion has a pole.
+std::optional<ValueAndSlope> undistorted(const Undistortion& distortion, double r) noexcept {
+  const ValueAndSlope n = cubic(distortion.numerator, r * r), d = cubic(distortion.denominator, r * r);
+  if (!(d.value > 0)) return std::nullopt;
+  const double factor = n.value / d.value;
+  return ValueAndSlope{r * factor, factor + 2 * r * r * (n.slope - factor * d.slope) / d.value};
 }
 
 /// What p1 and p2 add to `pixel`, which is where it is without them.
@@ -106,13 +128,40 @@ Result<FittedLens> fit_lens(const std::array<double, 9>& k, const std::vector<do
   const View view{*opencv, *inverse, reach};
   fitted.tangential = worst_tangential(view, raster);
   if (!has_radial_terms(opencv->radial)) return fitted;
-  fit_distortion(view, fitted.lens);
-  if (monotonic_radius(fitted.lens) < reach * fitted.lens.image_distance) {
-    return tl::unexpected(CameraReason::not_monotonic);
-  }
-  const Result<double> residual = radial_residual(view, fitted.lens);
+  const double unit = fitted.lens.image_distance;
+  const auto undistort = [&view](double distorted) {
+    const double radius = view.inverse.undistorted_radius(distorted);
+    return Undistorted{radius, view.lens.radial.distorted(radius).slope};
+  };
+  fit_distortion(undistort, reach, unit, fitted.lens);
+  if (monotonic_radius(fitted.lens) < reach * unit) return tl::unexpected(CameraReason::not_monotonic);
+  const Result<double> residual = radial_residual(undistort, reach, unit, fitted.lens);
   if (!residual) return tl::unexpected(residual.error());
-  fitted.residual = *residual;
+  fitted.residual = *residual * std::max(view.lens.fx, view.lens.fy);
+  return fitted;
+}
+
+Result<FittedLens> fit_lens(const Lens& lens, const Undistortion& distortion,
+                            const wire::CameraConstants& constants) noexcept {
+  if (const auto sound = check(constants); !sound) return tl::unexpected(sound.error());
+  if (!(lens.image_distance > 0)) return tl::unexpected(CameraReason::bad_field_of_view);
+  const Raster raster = raster_of(constants);
+  const double reach = image_reach(lens, raster);
+  for (int i = 1; i <= probe_count; ++i) {
+    const auto at = undistorted(distortion, reach * i / probe_count);
+    if (!at || !(at->slope > 0) || !std::isfinite(at->value)) return tl::unexpected(CameraReason::not_monotonic);
+  }
+  const auto undistort = [&distortion](double distorted) {
+    const auto at = undistorted(distortion, distorted);
+    return at ? Undistorted{at->value, 1 / at->slope} : Undistorted{};
+  };
+  FittedLens fitted;
+  fitted.lens = lens;
+  fit_distortion(undistort, reach, 1, fitted.lens);
+  if (!(monotonic_radius(fitted.lens) >= reach)) return tl::unexpected(CameraReason::not_monotonic);
+  const Result<double> residual = radial_residual(undistort, reach, 1, fitted.lens);
+  if (!residual) return tl::unexpected(residual.error());
+  fitted.residual = *residual * std::max(raster.mx, raster.my);
   return fitted;
 }
 

@@ -81,4 +81,15 @@ struct FittedLens {
 [[nodiscard]] Result<FittedLens> fit_lens(const std::array<double, 9>& k, const std::vector<double>& d,
                                           const wire::CameraConstants& constants) noexcept;
 
+/// r_u / r_d as a function of the distorted radius r (mm about the optical axis): (1 + n1 r^2 + n2 r^4 + n3 r^6) / (1 +
+/// d1 r^2 + d2 r^4 + d3 r^6).
+struct Undistortion {
+  std::array<double, 3> numerator{}, denominator{};
+};
+
+/// Likewise, for a lens of which all but k1 and k2 is known. Errors are bad_constants, bad_field_of_view (image
+/// distance), and not_monotonic where the distortion, or k1 and k2 fitted to it, fold within the image.
+[[nodiscard]] Result<FittedLens> fit_lens(const Lens& lens, const Undistortion& distortion,
+                                          const wire::CameraConstants& constants) noexcept;
+
 }  // namespace trk_bridge::camera
