@@ -1,6 +1,5 @@
 #include "datagram_decoder.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "trackmen.h"
@@ -42,33 +41,13 @@ transport::Decoder::Next DatagramDecoder::next(transport::Sample& into, transpor
 }
 
 bool DatagramDecoder::decode(wire::Record& into, wire::DecodedForm& form, wire::Fault& fault) noexcept {
-  if (Entry* known = find(sender_)) {
-    known->last_used = ++uses_;
-    return wire::decode(datagram_, known->detector, into, form, fault);
+  if (wire::LayoutDetector* known = detectors_.find(sender_)) {
+    return wire::decode(datagram_, *known, into, form, fault);
   }
   wire::LayoutDetector detector(layout_);
   if (!wire::decode(datagram_, detector, into, form, fault)) return false;
-  Entry& entry = place_for_new();
-  entry = {sender_, detector, ++uses_};
-  recent_ = static_cast<std::size_t>(&entry - entries_.data());
+  detectors_.add(sender_, detector);
   return true;
-}
-
-DatagramDecoder::Entry* DatagramDecoder::find(const transport::Sender& sender) noexcept {
-  if (recent_ < count_ && entries_[recent_].sender == sender) return &entries_[recent_];
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (entries_[i].sender == sender) {
-      recent_ = i;
-      return &entries_[i];
-    }
-  }
-  return nullptr;
-}
-
-DatagramDecoder::Entry& DatagramDecoder::place_for_new() noexcept {
-  if (count_ < capacity) return entries_[count_++];
-  return *std::min_element(entries_.begin(), entries_.end(),
-                           [](const Entry& a, const Entry& b) { return a.last_used < b.last_used; });
 }
 
 }  // namespace trk_bridge::trk

@@ -1,12 +1,11 @@
 // trk's datagrams to samples.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <string_view>
 
 #include "transport/datagram.h"
+#include "transport/per_sender.h"
 #include "trk_bridge/wire/codec.h"
 
 namespace trk_bridge::trk {
@@ -24,24 +23,13 @@ class DatagramDecoder final : public transport::Decoder {
   Next next(transport::Sample& into, transport::Fault& fault) noexcept override;
 
  private:
-  struct Entry {
-    transport::Sender sender;
-    wire::LayoutDetector detector;
-    std::uint64_t last_used = 0;
-  };
-
   bool decode(wire::Record& into, wire::DecodedForm& form, wire::Fault& fault) noexcept;
-  Entry* find(const transport::Sender& sender) noexcept;
-  Entry& place_for_new() noexcept;
 
   wire::LayoutChoice layout_;
   std::string_view datagram_;
   transport::Sender sender_;  // of the datagram
   bool is_given_ = true;      // next() gave what it has
-  std::array<Entry, capacity> entries_{};
-  std::size_t count_ = 0;
-  std::size_t recent_ = 0;  // most datagrams come from the sender of the one before
-  std::uint64_t uses_ = 0;
+  transport::PerSender<wire::LayoutDetector, capacity> detectors_;
 };
 
 }  // namespace trk_bridge::trk
