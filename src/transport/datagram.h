@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -49,6 +50,8 @@ class Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
+  /// When the parameters of the next begin() are true: `nanoseconds` since 1970 UTC. For protocols that have a time.
+  virtual void use_time(std::int64_t /*nanoseconds*/, const std::optional<base::CountedTimeCode>& /*code*/) noexcept {}
   /// The record whose datagrams next() gives from now on.
   [[nodiscard]] virtual tl::expected<void, Fault> begin(const wire::CameraParams&) noexcept = 0;
   [[nodiscard]] virtual tl::expected<void, Fault> begin(const wire::CameraConstants&) noexcept = 0;
@@ -61,6 +64,8 @@ class Encoder {
 
 /// Throws TransportError.
 std::unique_ptr<Source> open_datagram_source(const ReceiveSettings&, std::unique_ptr<Decoder>);
+/// The same where a protocol comes in several groups: one source that listens to all of them.
+std::unique_ptr<Source> open_datagram_source(const std::vector<ReceiveSettings>&, std::unique_ptr<Decoder>);
 
 /// Where to send to: one address, a broadcast address or a multicast group.
 struct SendSettings {
@@ -80,9 +85,11 @@ std::unique_ptr<Sink> open_datagram_sink(const SendSettings&, std::unique_ptr<En
 extern const std::array<Option<ReceiveSettings>, 3> receive_options;
 extern const std::array<Option<SendSettings>, 3> send_options;
 
-/// Host and port of the URL. The port must be given.
-tl::expected<void, std::string> set_place(const Url& url, ReceiveSettings& settings);
-tl::expected<void, std::string> set_place(const Url& url, SendSettings& settings);
+/// Host and port of the URL. The port must be given where the protocol has no standard one.
+tl::expected<void, std::string> set_place(const Url& url, ReceiveSettings& settings,
+                                          std::optional<std::uint16_t> standard_port = {});
+tl::expected<void, std::string> set_place(const Url& url, SendSettings& settings,
+                                          std::optional<std::uint16_t> standard_port = {});
 
 /// Host and port; equal for two URLs that name the same.
 std::string place_of(const ReceiveSettings& settings);

@@ -63,7 +63,8 @@ struct Place {
   std::uint16_t port = 0;
 };
 
-tl::expected<Place, std::string> place_in(const Url& url, Direction direction) {
+tl::expected<Place, std::string> place_in(const Url& url, Direction direction,
+                                          std::optional<std::uint16_t> standard_port) {
   if (url.place.compare(0, 2, "//") != 0) {
     return tl::make_unexpected("\"" + url.place + "\": " + url.scheme + "://HOST:PORT is allowed");
   }
@@ -74,6 +75,7 @@ tl::expected<Place, std::string> place_in(const Url& url, Direction direction) {
   if (host->empty() && direction == Direction::write) {
     return tl::make_unexpected("no host: writing needs the one to send to, as in " + url.scheme + "://192.0.2.7:7000");
   }
+  if (!parts->has_port && standard_port) return Place{*host, *standard_port};
   if (!parts->has_port) {
     return tl::make_unexpected("no port: there is no standard one, so it must be given (" + url.scheme +
                                "://HOST:PORT)");
@@ -89,8 +91,9 @@ tl::expected<Place, std::string> place_in(const Url& url, Direction direction) {
 }
 
 template <typename Settings>
-tl::expected<void, std::string> read_place(const Url& url, Direction direction, Settings& settings) {
-  auto place = place_in(url, direction);
+tl::expected<void, std::string> read_place(const Url& url, Direction direction,
+                                           std::optional<std::uint16_t> standard_port, Settings& settings) {
+  auto place = place_in(url, direction, standard_port);
   if (!place) return tl::make_unexpected(place.error());
   settings.host = std::move(place->host);
   settings.port = place->port;
@@ -117,12 +120,14 @@ const std::array<Option<SendSettings>, 3> send_options{{
      [](const std::string& v, SendSettings& s) { return assign(real_number(v, 0.0, 86400.0), s.constants_period); }},
 }};
 
-tl::expected<void, std::string> set_place(const Url& url, ReceiveSettings& settings) {
-  return read_place(url, Direction::read, settings);
+tl::expected<void, std::string> set_place(const Url& url, ReceiveSettings& settings,
+                                          std::optional<std::uint16_t> standard_port) {
+  return read_place(url, Direction::read, standard_port, settings);
 }
 
-tl::expected<void, std::string> set_place(const Url& url, SendSettings& settings) {
-  return read_place(url, Direction::write, settings);
+tl::expected<void, std::string> set_place(const Url& url, SendSettings& settings,
+                                          std::optional<std::uint16_t> standard_port) {
+  return read_place(url, Direction::write, standard_port, settings);
 }
 
 std::string place_of(const ReceiveSettings& settings) { return udp_url(settings.host, settings.port); }

@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/clock.h"
 #include "interfaces.h"
 #include "scheme.h"
 #include "socket.h"
@@ -169,6 +170,7 @@ Written DatagramSink::put(const wire::CameraParams& params) {
       }
     }
   }
+  encoder_->use_time(time().nanoseconds != 0 ? time().nanoseconds : base::wall_now(), time().time_code);
   const Written params_sent = send(params);
   if (!params_sent) return params_sent;
   // The fault of the constants keeps write() from counting the parameters.

@@ -1,12 +1,18 @@
 #include "datagram.h"
 
+#include <sys/epoll.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "counted_source.h"
 #include "scheme.h"
+#include "socket.h"
 
 namespace trk_bridge::transport {
 namespace {
@@ -17,32 +23,68 @@ constexpr std::uint64_t most_after_deadline = 4096;
 
 class DatagramSource final : public CountedSource {
  public:
-  DatagramSource(std::unique_ptr<ReceiveSocket> socket, std::unique_ptr<Decoder> decoder)
-      : CountedSource(socket->name()), socket_(std::move(socket)), decoder_(std::move(decoder)) {}
+  using Sockets = std::vector<std::unique_ptr<ReceiveSocket>>;
+
+  DatagramSource(Sockets sockets, std::unique_ptr<Decoder> decoder)
+      : CountedSource(name_of(sockets)), sockets_(std::move(sockets)), decoder_(std::move(decoder)) {
+    if (sockets_.size() == 1) return;
+    readable_ = Descriptor(::epoll_create1(EPOLL_CLOEXEC));
+    for (const auto& socket : sockets_) {
+      epoll_event readable{};
+      readable.events = EPOLLIN;
+      if (!readable_.is_open() || ::epoll_ctl(readable_.get(), EPOLL_CTL_ADD, socket->fd(), &readable) != 0) {
+        throw TransportError("no descriptor for waiting: " + std::generic_category().message(errno));
+      }
+    }
+  }
 
   Event receive(Reception& into, std::chrono::nanoseconds wait) override;
   void stop() noexcept override {
     CountedSource::stop();
-    socket_->stop();
+    for (const auto& socket : sockets_) socket->stop();
   }
 
  private:
+  static std::string name_of(const Sockets& sockets) {
+    std::string name;
+    for (const auto& socket : sockets) name += (name.empty() ? "" : " and ") + socket->name();
+    return name;
+  }
+
+  int fd() const noexcept { return readable_.is_open() ? readable_.get() : sockets_.front()->fd(); }
+  bool has_more() const noexcept {
+    return std::any_of(sockets_.begin(), sockets_.end(), [](const auto& socket) { return socket->has_more(); });
+  }
+  std::optional<ReceiveSocket::Datagram> next_datagram(bool waits, int& error) noexcept;
   Event too_long(const ReceiveSocket::Datagram& datagram, Reception& into) noexcept;
   void complete(SourceStatistics& statistics) const override;
 
-  std::unique_ptr<ReceiveSocket> socket_;
+  const Sockets sockets_;
+  Descriptor readable_;   // a set with all sockets in it, where there are several
+  std::size_t turn_ = 0;  // the socket that is asked first
   std::unique_ptr<Decoder> decoder_;
   bool has_datagram_ = false;  // the decoder has
   Sender sender_;
   std::int64_t arrival_ = 0;
 };
 
+/// Of several sockets none is waited for, and each has its turn.
+std::optional<ReceiveSocket::Datagram> DatagramSource::next_datagram(bool waits, int& error) noexcept {
+  for (std::size_t i = 0; i < sockets_.size(); ++i) {
+    ReceiveSocket& socket = *sockets_[turn_];
+    turn_ = (turn_ + 1) % sockets_.size();
+    const auto datagram = socket.next(waits, error);
+    if (datagram || is_lasting(error)) return datagram;
+  }
+  return std::nullopt;
+}
+
 Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
   const Deadline deadline(wait);
   for (std::uint64_t rounds = 0;; ++rounds) {
     if (const Event end = final_event(); end != Event::sample) return end;
     while (has_datagram_) {
-      into.more = socket_->has_more();
+      into.more = has_more();
       into.sample.sender = sender_;
       into.sample.arrival = arrival_;
       switch (decoder_->next(into.sample, into.fault)) {
@@ -57,7 +99,8 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
     }
     if (rounds >= most_after_deadline && deadline.has_passed()) return Event::idle;
     int error = 0;
-    if (const auto datagram = socket_->next(deadline.is_endless(), error)) {
+    const bool waits = deadline.is_endless() && sockets_.size() == 1;
+    if (const auto datagram = next_datagram(waits, error)) {
       if (!datagram->is_allowed) {
         refused(datagram->sender);
         continue;
@@ -71,10 +114,10 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
     }
     if (is_lasting(error)) return failed(error);
     // One system call waits and reads; with a time limit there are three.
-    if (deadline.is_endless()) continue;
+    if (waits) continue;
     // With no time to wait, what is there was asked for.
     if (deadline.has_passed()) return Event::idle;
-    switch (wait_readable(socket_->fd(), stop_event(), deadline)) {
+    switch (wait_readable(fd(), stop_event(), deadline)) {
       case Wake::readable:
         break;
       case Wake::stopped:
@@ -91,29 +134,41 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
 Event DatagramSource::too_long(const ReceiveSocket::Datagram& datagram, Reception& into) noexcept {
   into.sample.sender = datagram.sender;
   into.sample.arrival = datagram.arrival;
-  into.more = socket_->has_more();
+  into.more = has_more();
   into.fault = wire::Fault{wire::Reason::too_long};
   return malformed();
 }
 
 void DatagramSource::complete(SourceStatistics& statistics) const {
-  statistics.kernel_drops = socket_->kernel_drops();
-  statistics.receive_buffer = static_cast<std::uint64_t>(socket_->granted_buffer());
-  statistics.wanted_buffer = static_cast<std::uint64_t>(socket_->wanted_buffer());
+  std::string why;
+  for (const auto& socket : sockets_) {
+    statistics.kernel_drops += socket->kernel_drops();
+    statistics.receive_buffer += static_cast<std::uint64_t>(socket->granted_buffer());
+    statistics.wanted_buffer += static_cast<std::uint64_t>(socket->wanted_buffer());
+    if (why.empty()) why = socket->why_nothing_can_come();
+  }
   if (statistics.state == SourceState::failed) return;
-  std::string why = socket_->why_nothing_can_come();
   if (why.empty() && statistics.state == SourceState::waiting) why = "bound, nothing received yet";
-  if (!why.empty()) statistics.waiting_for = "udp port " + std::to_string(socket_->port()) + ": " + why;
+  if (!why.empty()) statistics.waiting_for = "udp port " + std::to_string(sockets_.front()->port()) + ": " + why;
 }
 
 }  // namespace
 
 std::unique_ptr<Source> open_datagram_source(const ReceiveSettings& settings, std::unique_ptr<Decoder> decoder) {
-  try {
-    return std::make_unique<DatagramSource>(std::make_unique<ReceiveSocket>(settings), std::move(decoder));
-  } catch (const TransportError& error) {
-    throw TransportError(udp_url(settings.host, settings.port) + ": " + error.what());
+  return open_datagram_source(std::vector<ReceiveSettings>{settings}, std::move(decoder));
+}
+
+std::unique_ptr<Source> open_datagram_source(const std::vector<ReceiveSettings>& places,
+                                             std::unique_ptr<Decoder> decoder) {
+  DatagramSource::Sockets sockets;
+  for (const ReceiveSettings& settings : places) {
+    try {
+      sockets.push_back(std::make_unique<ReceiveSocket>(settings));
+    } catch (const TransportError& error) {
+      throw TransportError(udp_url(settings.host, settings.port) + ": " + error.what());
+    }
   }
+  return std::make_unique<DatagramSource>(std::move(sockets), std::move(decoder));
 }
 
 }  // namespace trk_bridge::transport
