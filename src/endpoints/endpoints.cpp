@@ -12,6 +12,7 @@
 
 #include "file/scheme.h"
 #include "freed/scheme.h"
+#include "opentrackio/scheme.h"
 #include "presets.h"
 #include "shm/scheme.h"
 #include "transport/scheme.h"
@@ -30,7 +31,8 @@ using transport::TransportError;
 using transport::Url;
 
 /// Every scheme there is.
-constexpr std::array<const Scheme*, 4> schemes{&trk::udp_scheme, &freed::scheme, &shm::scheme, &file::scheme};
+constexpr std::array<const Scheme*, 5> schemes{&trk::udp_scheme, &freed::scheme, &opentrackio::scheme, &shm::scheme,
+                                               &file::scheme};
 
 std::string usages() {
   std::string text;

@@ -16,8 +16,8 @@ from drawings.room_table import ROOMS, reachable_from, used_by  # noqa: E402
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 # Folders of headers that come with the system or with a library that has nothing to do with ROS.
-WITHOUT_ROS = {"CLI", "Eigen", "arpa", "fast_float", "fmt", "linux", "net", "netinet", "opencv2", "rapidjson", "sys", "tl",
-               "yaml-cpp"}
+WITHOUT_ROS = {"CLI", "Eigen", "arpa", "fast_float", "fmt", "linux", "net", "netinet", "nlohmann", "opencv2",
+               "rapidjson", "sys", "tl", "yaml-cpp"}
 
 
 def rooms_on_disk(root):

@@ -71,7 +71,9 @@ TEST(Endpoints, MalformedOptions) {
 
 TEST(Endpoints, Schemes) {
   for (const char* url : {"tcp://host:1", "memory:queue", "UDP://:1", ":7000", "udpx://:1"}) {
-    EXPECT_THAT(read_error(url), AllOf(HasSubstr("scheme"), HasSubstr("udp://HOST:PORT, freed://HOST:PORT, shm:SLOT and file:PATH")))
+    EXPECT_THAT(read_error(url),
+                AllOf(HasSubstr("scheme"),
+                      HasSubstr("udp://HOST:PORT, freed://HOST:PORT, opentrackio://HOST:PORT, shm:SLOT and file:PATH")))
         << url;
   }
   for (const char* url : {"", "host", "7000"}) EXPECT_THAT(read_error(url), HasSubstr("no scheme")) << url;

@@ -1,0 +1,102 @@
+// Samples in trk's terms, and records as samples (doc/opentrackio.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+
+#include <Eigen/Geometry>
+#include <tl/expected.hpp>
+
+#include "fault.h"
+#include "sample.h"
+#include "trk_bridge/base/time_code.h"
+#include "trk_bridge/camera/calibration.h"
+#include "trk_bridge/camera/converter.h"
+#include "trk_bridge/transport/sample.h"
+#include "trk_bridge/wire/record.h"
+
+namespace trk_bridge::opentrackio {
+
+/// Of the last transform, without its scale.
+Eigen::Isometry3d pose_of(const Sample&) noexcept;
+
+/// What a sample has that trk cannot say, the first that applies.
+enum class Lost : std::uint8_t { nothing, tangential, distortion_offset, scale, resolution };
+
+/// What a sample becomes.
+struct Records {
+  std::optional<wire::CameraConstants> constants;
+  std::optional<wire::CameraParams> params;
+  bool has_counter = false, has_lens = false;
+  std::optional<std::int64_t> sample_time;  ///< ns since 1970 UTC
+  std::optional<base::CountedTimeCode> time_code;
+  Lost lost = Lost::nothing;
+  std::optional<transport::Fault> fault;  ///< of a part; the others stand
+};
+
+/// Samples of one port to records. Remembers the sensor of each source number, and the last fit of its distortion.
+/// Allocates only for a source number that is new.
+class RecordsReader {
+ public:
+  /// `takes_any`: source numbers that are no number of a source (0, above 200, none). `tai_offset` in s: how far the
+  /// senders' clocks are ahead of UTC.
+  RecordsReader(bool takes_any, int tai_offset) : takes_any_(takes_any), tai_offset_(tai_offset) {}
+
+  [[nodiscard]] tl::expected<Records, transport::Fault> read(const Sample&) noexcept;
+
+ private:
+  struct Source {
+    std::optional<wire::CameraConstants> constants;
+    // What was fitted last, and what came of it; none: nothing was.
+    std::array<double, 6> radial{};
+    Model model{};
+    Eigen::Vector2d center_shift = Eigen::Vector2d::Zero();
+    std::optional<tl::expected<camera::Lens, Reason>> fitted;
+  };
+
+  tl::expected<camera::Lens, Reason> distorted(const Sample&, const camera::Lens&, Source&) noexcept;
+
+  bool takes_any_;
+  int tai_offset_;
+  std::unordered_map<std::uint32_t, Source> sources_;
+};
+
+/// Receivers that read in ways of their own.
+enum class Profile : std::uint8_t { generic, unreal };
+
+struct WriterSettings {
+  Profile profile = Profile::generic;
+  Model model = Model::distorted_to_undistorted;
+  std::uint32_t source = 0;    ///< 1 to 200; 0: the id of the record
+  int tai_offset = 37;         ///< s
+  std::optional<double> rate;  ///< Hz, of samples
+};
+
+/// Records to samples. What they cannot say is in `custom`: every field whose value a reader of the rest would not come
+/// to. Remembers the constants of each id; allocates only for an id that is new.
+class RecordsWriter {
+ public:
+  explicit RecordsWriter(const WriterSettings& settings) : settings_(settings) {}
+
+  /// They go out with the next parameters of their id.
+  tl::expected<void, transport::Fault> use(const wire::CameraConstants&) noexcept;
+  /// `nanoseconds` since 1970 UTC.
+  tl::expected<Sample, transport::Fault> sample_of(const wire::CameraParams&, std::int64_t nanoseconds,
+                                                   const std::optional<base::CountedTimeCode>&) noexcept;
+
+ private:
+  struct Camera {
+    camera::Converter converter{wire::euler};
+    camera::Calibrator calibrator;
+    bool is_due = false;  // the constants
+  };
+
+  std::optional<transport::Fault> set_distortion(const camera::Lens&, Camera&, Sample&) const noexcept;
+
+  WriterSettings settings_;
+  std::unordered_map<std::uint32_t, Camera> cameras_;
+};
+
+}  // namespace trk_bridge::opentrackio

@@ -1,0 +1,197 @@
+#include "scheme.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <memory>
+
+#include "decoder.h"
+#include "encoder.h"
+
+namespace trk_bridge::opentrackio {
+namespace {
+
+using transport::Direction;
+using transport::Option;
+using transport::Url;
+
+// SMPTE's of 1.0.1, and of 1.0.0.
+constexpr std::array<std::string_view, 2> groups{"239.135.1.", "235.135.1."};
+
+std::string group_of(std::string_view group, std::uint32_t source) {
+  return std::string(group) + std::to_string(source);
+}
+
+/// Of a host that is one of the groups; 0: it is none.
+std::uint32_t source_of(std::string_view host) {
+  for (const std::string_view group : groups) {
+    if (host.substr(0, group.size()) != group) continue;
+    return transport::whole_number<std::uint32_t>(host.substr(group.size()), 1, 200).value_or(0);
+  }
+  return 0;
+}
+
+constexpr std::string_view offset_allowed = "whole seconds from -1000 to 1000";
+
+bool assign_source(const std::string& value, std::uint32_t& to) {
+  return transport::assign(transport::whole_number<std::uint32_t>(value, 1, 200), to);
+}
+
+bool assign_offset(const std::string& value, int& to) {
+  return transport::assign(transport::whole_number(value, -1000, 1000), to);
+}
+
+template <typename Value>
+struct Word {
+  std::string_view word;
+  Value value;
+};
+
+template <typename Value>
+bool assign_word(const std::string& value, const std::array<Word<Value>, 2>& words, Value& to) {
+  const auto known = std::find_if(words.begin(), words.end(), [&](const auto& one) { return one.word == value; });
+  if (known == words.end()) return false;
+  to = known->value;
+  return true;
+}
+
+constexpr std::array<Word<Encoding>, 2> encodings{{{"json", Encoding::json}, {"cbor", Encoding::cbor}}};
+constexpr std::array<Word<Profile>, 2> profiles{{{"generic", Profile::generic}, {"unreal", Profile::unreal}}};
+constexpr std::array<Word<Model>, 2> models{
+    {{"D-U", Model::distorted_to_undistorted}, {"U-D", Model::undistorted_to_distorted}}};
+
+bool assign_uuid(const std::string& value, std::string& to) {
+  constexpr std::string_view form = "xxxxxxxx-xxxx-xxxx-xxxx-xxxxxxxxxxxx";
+  constexpr std::string_view digits = "0123456789abcdef";
+  const bool is_one = std::equal(value.begin(), value.end(), form.begin(), form.end(), [&](char is, char wanted) {
+    return wanted == '-' ? is == '-' : digits.find(is) != std::string_view::npos;
+  });
+  if (is_one) to = "urn:uuid:" + value;
+  return is_one;
+}
+
+constexpr std::array<Option<SourceSettings>, 2> source_options{{
+    {"source", "a source number from 1 to 200, and any",
+     [](const std::string& v, SourceSettings& s) {
+       s.takes_any = v == "any";
+       return s.takes_any || assign_source(v, s.source);
+     }},
+    {"tai_offset", offset_allowed,
+     [](const std::string& v, SourceSettings& s) { return assign_offset(v, s.tai_offset); }},
+}};
+
+constexpr std::array<Option<SinkSettings>, 7> sink_options{{
+    {"source", "a source number from 1 to 200",
+     [](const std::string& v, SinkSettings& s) { return assign_source(v, s.writer.source); }},
+    {"encoding", "json and cbor",
+     [](const std::string& v, SinkSettings& s) { return assign_word(v, encodings, s.encoding); }},
+    {"profile", "generic and unreal",
+     [](const std::string& v, SinkSettings& s) { return assign_word(v, profiles, s.writer.profile); }},
+    {"distortion", "D-U and U-D",
+     [](const std::string& v, SinkSettings& s) { return assign_word(v, models, s.writer.model); }},
+    {"rate", "samples a second from 1 to 1000",
+     [](const std::string& v, SinkSettings& s) {
+       return transport::assign(transport::real_number(v, 1, 1000), s.writer.rate);
+     }},
+    {"tai_offset", offset_allowed,
+     [](const std::string& v, SinkSettings& s) { return assign_offset(v, s.writer.tai_offset); }},
+    {"source_id", "UUIDs of lower-case digits, as in 5e1f0a6c-0000-8000-8000-000000000001",
+     [](const std::string& v, SinkSettings& s) { return assign_uuid(v, s.source_id); }},
+}};
+
+bool has_no_host(const Url& url) { return url.place == "//" || url.place.compare(0, 3, "//:") == 0; }
+
+/// The same after every start, for receivers that take another one for another camera.
+std::string source_id_of(const SinkSettings& settings) {
+  char host[256] = "";
+  (void)::gethostname(host, sizeof host - 1);
+  const std::string target = settings.host + ":" + std::to_string(settings.port);
+  const std::hash<std::string> hash;
+  return uuid(hash(host), hash(target));
+}
+
+}  // namespace
+
+std::vector<transport::ReceiveSettings> SourceSettings::places() const {
+  if (source == 0) return {*this};
+  std::vector<transport::ReceiveSettings> all;
+  for (const std::string_view group : groups) {
+    all.emplace_back(*this);
+    all.back().host = group_of(group, source);
+  }
+  return all;
+}
+
+tl::expected<SourceSettings, std::string> source_settings(const Url& url) {
+  SourceSettings settings;
+  if (const auto place = transport::set_place(url, settings, standard_port); !place) {
+    return tl::make_unexpected(place.error());
+  }
+  const auto set =
+      transport::set_options(url, Direction::read, settings, transport::keys_of(transport::send_options, sink_options),
+                             transport::receive_options, source_options);
+  if (!set) return tl::make_unexpected(set.error());
+  if (settings.source != 0 && !settings.host.empty()) {
+    return tl::make_unexpected("option source = \"" + std::to_string(settings.source) +
+                               "\": it names the groups to join, and host \"" + settings.host +
+                               "\" is given: leave one of them out");
+  }
+  if (settings.source == 0) settings.source = source_of(settings.host);
+  if (settings.source != 0 && settings.port == 0) {
+    return tl::make_unexpected("port = 0: two groups need a port that is given");
+  }
+  return settings;
+}
+
+tl::expected<SinkSettings, std::string> sink_settings(const Url& url) {
+  SinkSettings settings;
+  // As often as receivers may expect.
+  settings.constants_period = 2.0;
+  const auto source =
+      std::find_if(url.options.begin(), url.options.end(), [](const auto& option) { return option.key == "source"; });
+  Url with_host = url;
+  // An option that is no source number is refused below, with all others.
+  if (has_no_host(url) && source != url.options.end()) {
+    with_host.place = "//" + group_of(groups.front(), 1) + url.place.substr(2);
+  }
+  if (const auto place = transport::set_place(with_host, settings, standard_port); !place) {
+    return tl::make_unexpected(place.error() + (has_no_host(url) ? ", or source=N for its group" : ""));
+  }
+  const auto set = transport::set_options(url, Direction::write, settings,
+                                          transport::keys_of(transport::receive_options, source_options),
+                                          transport::send_options, sink_options);
+  if (!set) return tl::make_unexpected(set.error());
+  if (has_no_host(url)) settings.host = group_of(groups.front(), settings.writer.source);
+  if (settings.writer.source == 0) settings.writer.source = source_of(settings.host);
+  if (settings.source_id.empty()) settings.source_id = source_id_of(settings);
+  return settings;
+}
+
+const transport::Scheme scheme{
+    "opentrackio", "opentrackio://HOST:PORT",
+    [](const Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
+      const auto settings = source_settings(url);
+      if (!settings) return tl::make_unexpected(settings.error());
+      transport::SourceEndpoint endpoint;
+      endpoint.place = transport::place_of(settings->places().front());
+      endpoint.over_network = true;
+      endpoint.open = [settings = *settings](double) {
+        return transport::open_datagram_source(
+            settings.places(), std::make_unique<PacketDecoder>(settings.takes_any, settings.tai_offset));
+      };
+      return endpoint;
+    },
+    [](const Url& url) -> tl::expected<transport::SinkEndpoint, std::string> {
+      const auto settings = sink_settings(url);
+      if (!settings) return tl::make_unexpected(settings.error());
+      transport::SinkEndpoint endpoint;
+      endpoint.open = [settings = *settings] {
+        return transport::open_datagram_sink(
+            settings, std::make_unique<PacketEncoder>(settings.writer, settings.encoding, settings.source_id));
+      };
+      return endpoint;
+    }};
+
+}  // namespace trk_bridge::opentrackio

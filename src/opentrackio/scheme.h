@@ -1,0 +1,45 @@
+// OpenTrackIO over UDP: the scheme opentrackio.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "packet.h"
+#include "records.h"
+#include "transport/datagram.h"
+#include "transport/scheme.h"
+
+namespace trk_bridge::opentrackio {
+
+inline constexpr std::uint16_t standard_port = 55555;
+
+/// `opentrackio://[host][:port]?source=…&tai_offset=…` and the options of every datagram source, to read from.
+struct SourceSettings : transport::ReceiveSettings {
+  /// Source number whose groups are joined, 1.0.1's (239.135.1.N) and 1.0.0's (235.135.1.N): with one of them as the
+  /// host, and without a host. 0: none.
+  std::uint32_t source = 0;
+  bool takes_any = false;  ///< `source=any`: samples whose source number is none
+  int tai_offset = 37;     ///< s
+
+  /// What is listened to, one or two places.
+  std::vector<transport::ReceiveSettings> places() const;
+};
+
+/// `opentrackio://[host][:port]?source=…&encoding=…&profile=…&distortion=…&rate=…&tai_offset=…&source_id=…` and the
+/// options of every datagram sink, to write to.
+struct SinkSettings : transport::SendSettings {
+  WriterSettings writer;
+  Encoding encoding = Encoding::json;
+  std::string source_id;  ///< urn:uuid:…
+};
+
+/// Errors name the part of the URL, its value and what is allowed.
+tl::expected<SourceSettings, std::string> source_settings(const transport::Url&);
+tl::expected<SinkSettings, std::string> sink_settings(const transport::Url&);
+
+extern const transport::Scheme scheme;
+
+}  // namespace trk_bridge::opentrackio
