@@ -11,7 +11,7 @@ constexpr std::string_view magic = "OTrk";
 constexpr std::size_t encoding_at = 5, sequence_at = 6, offset_at = 8, length_at = 12, checksum_at = 14;
 constexpr std::uint16_t last_bit = 0x8000;
 static_assert(checksum_at + 2 == header_size);
-static_assert(20 + 8 + header_size + most_payload == 1500);
+static_assert(40 + 8 + header_size + most_payload == 1500);
 
 std::uint32_t byte(std::string_view bytes, std::size_t at) noexcept { return static_cast<unsigned char>(bytes[at]); }
 std::uint16_t u16(std::string_view bytes, std::size_t at) noexcept {

@@ -16,8 +16,8 @@
 namespace trk_bridge::opentrackio {
 
 inline constexpr std::size_t header_size = 16;
-/// With the headers of packet, UDP and IPv4 it is 1500 bytes, which no Ethernet fragments.
-inline constexpr std::size_t most_payload = 1456;
+/// With the headers of packet, UDP and IPv6 it is 1500 bytes, which no Ethernet fragments. (IPv4 has room for 1456.)
+inline constexpr std::size_t most_payload = 1436;
 /// A sample, all segments together.
 inline constexpr std::size_t most_bytes = 65536;
 /// Of objects and lists within each other.

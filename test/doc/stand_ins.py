@@ -76,7 +76,7 @@ def stand_ins(root, build, slot):
     build = shlex.quote(str(build))
     ports = [StandIn(rf"\b{port}\b", str(free_port()), "ports that others may use here") for port in range(7000, 7004)]
     return ports + [
-        StandIn(r"udp://:", "udp://127.0.0.1:", "tests are not reached from outside"),
+        StandIn(r"://:", "://127.0.0.1:", "tests are not reached from outside"),
         StandIn(r"\b(?:192\.0\.2|198\.51\.100|203\.0\.113)\.\d+\b", "127.0.0.1", "stand for the reader's own"),
         StandIn(r"\b239(?:\.\d+){3}\b", "127.0.0.1", "multicast would leave the machine"),
         StandIn(r"\bshm:7\b", f"shm:{slot}", "a slot that others may use on this machine"),

@@ -282,6 +282,44 @@ TEST(FitLens, SaysHowMuchIsLost) {
   EXPECT_EQ(aspect->lens.image_distance, 10);
 }
 
+TEST(FitLens, OfAnUndistortion) {
+  const Lens lens = lens_with(1.05, 0.7);
+  Lens bare = lens;
+  bare.k1 = bare.k2 = 0;
+  bare.center_shift = {0.3, -0.2};
+  const auto same = fit_lens(bare, {{lens.k1, lens.k2, 0}, {}}, hd);
+  ASSERT_TRUE(same);
+  EXPECT_NEAR(same->lens.k1, lens.k1, 1e-12);
+  EXPECT_NEAR(same->lens.k2, lens.k2, 1e-13);
+  EXPECT_EQ(same->lens.center_shift, bare.center_shift);
+  EXPECT_LE(same->residual, 1e-9);
+  // What k1 and k2 cannot follow is told in pixels: measured here along a radius.
+  const Undistortion ratio{{4e-3, 0, 0}, {1e-2, 0, 1e-5}};
+  bare.center_shift.setZero();
+  const auto near = fit_lens(bare, ratio, hd);
+  ASSERT_TRUE(near);
+  double worst = 0;
+  for (int i = 1; i <= 500; ++i) {
+    const double r = corner * i / 500, s = r * r;
+    const double undistorted = r * (1 + 4e-3 * s) / (1 + 1e-2 * s + 1e-5 * s * s * s);
+    const auto chip = distort(near->lens, {undistorted, 0});
+    ASSERT_TRUE(chip);
+    worst = std::max(worst, std::abs(chip->x() - r) * 1080 / 5.39);
+  }
+  EXPECT_NEAR(near->residual, worst, 0.02 * worst);
+  EXPECT_GT(worst, 0.01);
+
+  const auto reason = [&](const Undistortion& distortion, const Lens& of, const CameraConstants& constants) {
+    const auto fitted = fit_lens(of, distortion, constants);
+    EXPECT_FALSE(fitted);
+    return fitted ? CameraReason{} : fitted.error();
+  };
+  EXPECT_EQ(reason({{-0.1, 0, 0}, {}}, bare, hd), CameraReason::not_monotonic) << "folds within the image";
+  EXPECT_EQ(reason({{}, {-0.1, 0, 0}}, bare, hd), CameraReason::not_monotonic) << "a pole in the image";
+  EXPECT_EQ(reason({}, bare, {}), CameraReason::bad_constants);
+  EXPECT_EQ(reason({}, Lens{}, hd), CameraReason::bad_field_of_view);
+}
+
 TEST(FitLens, RefusesWhatIsNoCameraInfo) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::array<double, 9> good = {1600, 0, 959.5, 0, 1600, 539.5, 0, 0, 1};
