@@ -111,20 +111,20 @@ enum class Model : std::uint8_t {
 
 /// Values of the members, in the units of OpenTrackIO: metres and degrees, the lens in mm with y down.
 struct Sample {
+  /// The product of all transforms but the last, without their scales.
+  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
+  std::size_t transforms = 0;
+  std::uint64_t counter = 0;  ///< custom.trk.params.counter, which a double cannot hold
+
   std::bitset<member_count> has;
   /// Of all members that are one number; of `transforms` those of the last. Flags are 0 and 1.
   std::array<double, member_count> numbers{};
-  std::uint64_t counter = 0;  ///< custom.trk.params.counter, which a double cannot hold
+  std::array<double, 6> radial{};  ///< those that are missing are 0
+  std::array<double, 16> matrix{};
 
   Model model = Model::distorted_to_undistorted;
-  std::array<double, 6> radial{};  ///< those that are missing are 0
-  bool is_tangential = false;      ///< a tangential term is not 0
-  std::array<double, 16> matrix{};
+  bool is_tangential = false;  ///< a tangential term is not 0
   bool has_matrix = false;
-
-  std::size_t transforms = 0;
-  /// The product of all transforms but the last, without their scales.
-  Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
   bool is_scaled = false;  ///< a scale is not 1
 
   bool has_member(Id id) const noexcept { return has[static_cast<std::size_t>(id)]; }
