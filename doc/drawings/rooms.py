@@ -1,9 +1,12 @@
 """Which room knows which, floor by floor: each names the rooms right below that it uses."""
 
+import textwrap
+
 from .room_table import ROOMS, arrows, floor_of
 from .svg import GREY, INK, Picture
 
-SIZE = (190, 64)
+SIZE = (190, 78)
+USES_WIDTH = 30  # characters
 GAP = (14, 22)
 MARGIN = 20
 LEGEND = 24
@@ -34,4 +37,5 @@ def _box(picture, room, left, top):
     picture.text((middle, top + 38), ROOMS[room].what, 11, GREY, "middle")
     used = [below for user, below in arrows() if user == room]
     if used:
-        picture.text((middle, top + 55), "uses " + ", ".join(used), 11, "#1565c0", "middle")
+        for line, text in enumerate(textwrap.wrap("uses " + ", ".join(used), USES_WIDTH)):
+            picture.text((middle, top + 55 + 15 * line), text, 11, "#1565c0", "middle")
