@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "trk_bridge/wire/format.h"
+#include "wire/bytes.h"
 #include "wire/places.h"
-#include "wire/shape.h"
 
 namespace trk_bridge::trk {
 namespace {

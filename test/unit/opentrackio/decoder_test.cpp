@@ -405,10 +405,10 @@ TEST(OpenTrackIoDecoder, TenThousandMutatedPackets) {
   EXPECT_EQ(given(decoder, packet_of(json, Encoding::json, 54321)).params(), given_of(full_sample()).params());
 }
 
-/// The reference samples of SMPTE RIS OSVP are not in this repository: the variable names their folder.
+/// The reference samples of SMPTE RIS OSVP are not in this repository: a variable of the build names their folder.
 TEST(OpenTrackIoDecoder, ReferenceSamples) {
-  const char* folder = std::getenv("TRK_BRIDGE_OPENTRACKIO_VECTORS");
-  if (folder == nullptr || *folder == '\0') GTEST_SKIP() << "TRK_BRIDGE_OPENTRACKIO_VECTORS is not set";
+  const std::filesystem::path folder(TRK_BRIDGE_OPENTRACKIO_VECTORS);
+  if (folder.empty()) GTEST_SKIP() << "TRK_BRIDGE_OPENTRACKIO_VECTORS is not set";
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().string().find("_example.json") == std::string::npos) continue;
