@@ -14,6 +14,7 @@
 #include "freed/scheme.h"
 #include "opentrackio/scheme.h"
 #include "presets.h"
+#include "schemes.h"
 #include "shm/scheme.h"
 #include "transport/scheme.h"
 #include "trk/udp.h"
@@ -194,6 +195,8 @@ tl::expected<SourceEndpoint, std::string> source_endpoint(std::string_view text)
 }
 
 }  // namespace
+
+std::vector<const Scheme*> all_schemes() { return {schemes.begin(), schemes.end()}; }
 
 tl::expected<SourceEndpoint, std::string> parse_source(std::string_view url) {
   return located(url, source_endpoint(url));

@@ -125,6 +125,10 @@ Fault no_camera(camera::CameraReason reason) noexcept {
           static_cast<std::uint8_t>(reason), -1};
 }
 
+bool claims(std::string_view datagram) noexcept {
+  return datagram.size() >= message_size && byte(datagram, 0) >= first_type && byte(datagram, 0) <= last_type;
+}
+
 tl::expected<Read, Fault> read(std::string_view datagram) noexcept {
   if (datagram.empty()) return tl::make_unexpected(wrong_size());
   if (byte(datagram, 0) != position_type) return tl::make_unexpected(other_message(byte(datagram, 0)));

@@ -46,6 +46,9 @@ transport::Fault out_of_range(Field) noexcept;
 transport::Fault beyond_lens_table() noexcept;
 transport::Fault no_camera(camera::CameraReason) noexcept;
 
+/// Whether a datagram begins as a Free-D message of any type, and is long enough for a D1.
+bool claims(std::string_view datagram) noexcept;
+
 /// A message of the bytes of a datagram, whatever its checksum is.
 struct Read {
   Message message;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <utility>
+#include <vector>
 
 namespace trk_bridge::freed {
 namespace {
@@ -49,6 +51,24 @@ tl::expected<Settings, std::string> with_table(Settings settings) {
   settings.table = *std::move(table);
   return settings;
 }
+
+const transport::Detection detection{"Free-D", claims,
+                                     [] {
+                                       std::vector<transport::Detection::Reading> readings(2);
+                                       readings[0].decoder = std::make_unique<Decoder>(DecoderOptions{});
+                                       DecoderOptions lenient;
+                                       lenient.lenient = true;
+                                       readings[1] = {"checksum=lenient", std::make_unique<Decoder>(lenient)};
+                                       return readings;
+                                     },
+                                     [] {
+                                       return std::vector<transport::UsualPlace>{
+                                           {40000, "", "many trackers and heads, Sony"},
+                                           {1111, "", "Panasonic"},
+                                           {52380, "", "Sony, older"},
+                                           {8001, "", "Mo-Sys"},
+                                           {6301, "", "stYpe, Ncam"}};
+                                     }};
 
 }  // namespace
 
@@ -102,6 +122,7 @@ const transport::Scheme scheme{"freed", "freed://HOST:PORT",
                                    return transport::open_datagram_sink(settings, std::make_unique<Encoder>(settings));
                                  };
                                  return endpoint;
-                               }};
+                               },
+                               &detection};
 
 }  // namespace trk_bridge::freed

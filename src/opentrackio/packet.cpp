@@ -41,9 +41,11 @@ std::uint16_t checksum(std::string_view header, std::string_view payload) noexce
 
 }  // namespace
 
+bool claims(std::string_view datagram) noexcept { return datagram.substr(0, magic.size()) == magic; }
+
 tl::expected<Packet, Reason> packet_of(std::string_view datagram) noexcept {
   if (datagram.size() < header_size) return tl::unexpected(Reason::truncated);
-  if (datagram.substr(0, magic.size()) != magic) return tl::unexpected(Reason::bad_magic);
+  if (!claims(datagram)) return tl::unexpected(Reason::bad_magic);
   Packet packet;
   packet.payload = datagram.substr(header_size);
   const std::uint16_t length = u16(datagram, length_at);

@@ -32,6 +32,8 @@ struct Packet {
   std::string_view payload;
 };
 
+/// Whether a datagram begins as a packet, whatever follows.
+bool claims(std::string_view datagram) noexcept;
 [[nodiscard]] tl::expected<Packet, Reason> packet_of(std::string_view datagram) noexcept;
 
 /// Room for a packet that is written.

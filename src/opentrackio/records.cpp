@@ -12,7 +12,6 @@ namespace trk_bridge::opentrackio {
 namespace {
 
 constexpr std::int64_t second = 1'000'000'000;
-constexpr std::uint32_t highest_source = 200;
 // Of those that are no numbers of a source, which a sender may have many of.
 constexpr std::size_t most_sources = 1024;
 

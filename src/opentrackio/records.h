@@ -19,6 +19,9 @@
 
 namespace trk_bridge::opentrackio {
 
+/// Sources have the numbers from 1 to this.
+inline constexpr std::uint32_t highest_source = 200;
+
 /// Of the last transform, without its scale.
 Eigen::Isometry3d pose_of(const Sample&) noexcept;
 

@@ -28,7 +28,7 @@ std::string group_of(std::string_view group, std::uint32_t source) {
 std::uint32_t source_of(std::string_view host) {
   for (const std::string_view group : groups) {
     if (host.substr(0, group.size()) != group) continue;
-    return transport::whole_number<std::uint32_t>(host.substr(group.size()), 1, 200).value_or(0);
+    return transport::whole_number<std::uint32_t>(host.substr(group.size()), 1, highest_source).value_or(0);
   }
   return 0;
 }
@@ -36,7 +36,7 @@ std::uint32_t source_of(std::string_view host) {
 constexpr std::string_view offset_allowed = "whole seconds from -1000 to 1000";
 
 bool assign_source(const std::string& value, std::uint32_t& to) {
-  return transport::assign(transport::whole_number<std::uint32_t>(value, 1, 200), to);
+  return transport::assign(transport::whole_number<std::uint32_t>(value, 1, highest_source), to);
 }
 
 bool assign_offset(const std::string& value, int& to) {
@@ -111,6 +111,26 @@ std::string source_id_of(const SinkSettings& settings) {
   const std::hash<std::string> hash;
   return uuid(hash(host), hash(target));
 }
+
+const transport::Detection detection{
+    "OpenTrackIO", claims,
+    [] {
+      const int tai_offset = SourceSettings{}.tai_offset;
+      std::vector<transport::Detection::Reading> readings(2);
+      readings[0].decoder = std::make_unique<PacketDecoder>(false, tai_offset);
+      readings[1] = {"source=any", std::make_unique<PacketDecoder>(true, tai_offset)};
+      return readings;
+    },
+    [] {
+      std::vector<transport::UsualPlace> places{{standard_port, "", "OpenTrackIO, unicast"}};
+      for (const std::string_view group : groups) {
+        for (std::uint32_t source = 1; source <= highest_source; ++source) {
+          places.push_back({standard_port, group_of(group, source),
+                            group == groups.front() ? "OpenTrackIO 1.0.1" : "OpenTrackIO 1.0.0"});
+        }
+      }
+      return places;
+    }};
 
 }  // namespace
 
@@ -192,6 +212,7 @@ const transport::Scheme scheme{
             settings, std::make_unique<PacketEncoder>(settings.writer, settings.encoding, settings.source_id));
       };
       return endpoint;
-    }};
+    },
+    &detection};
 
 }  // namespace trk_bridge::opentrackio

@@ -14,6 +14,7 @@
 #include "cli/checked_output.h"
 #include "cli/exit_code.h"
 #include "cli/stop_signals.h"
+#include "detect.h"
 #include "dump.h"
 #include "endpoints/presets.h"
 #include "lens_table.h"
@@ -169,6 +170,35 @@ class MonitorCommand {
   std::optional<double> seconds_;
 };
 
+class DetectCommand {
+ public:
+  explicit DetectCommand(CLI::App& app)
+      : command_(app.add_subcommand("detect", "Find out who sends tracking data to this machine, and how to read it")) {
+    command_->add_option("PORT", options_.places,
+                         "Where to listen, also GROUP:PORT; default: every port and group that is usual");
+    command_->add_option("--seconds", options_.seconds, "Listen for S seconds")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber)
+        ->type_name("S");
+    auto* json = command_->add_flag("--json", options_.json, "A JSON object for each camera");
+    command_->add_flag("--list", lists_, "List the usual ports and groups instead")->excludes(json);
+  }
+  bool is_asked_for() const { return command_->parsed(); }
+
+  cli::ExitCode run() const {
+    if (!lists_) return detect(options_, std::cout, std::cerr);
+    list_usual_places(std::cout);
+    if (std::cout.flush()) return cli::exit_good;
+    std::cerr << "trk: error: the list could not be written to standard output\n";
+    return cli::exit_failed;
+  }
+
+ private:
+  CLI::App* command_;
+  DetectOptions options_;
+  bool lists_ = false;
+};
+
 class LensCommand {
  public:
   explicit LensCommand(CLI::App& app)
@@ -229,6 +259,7 @@ int main(int argc, char** argv) {
   DumpCommand dump_command(app);
   RelayCommand relay_command(app);
   MonitorCommand monitor_command(app);
+  DetectCommand detect_command(app);
   LensCommand lens_command(app);
   PresetsCommand presets_command(app);
 #ifdef TRK_BRIDGE_WITH_BAG
@@ -244,6 +275,7 @@ int main(int argc, char** argv) {
 #endif
     if (dump_command.is_asked_for()) return dump_command.run();
     if (relay_command.is_asked_for()) return relay_command.run();
+    if (detect_command.is_asked_for()) return detect_command.run();
     if (lens_command.is_asked_for()) return lens_command.run();
     if (monitor_command.is_asked_for()) return monitor_command.run();
     return presets_command.run();

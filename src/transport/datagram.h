@@ -85,6 +85,29 @@ std::unique_ptr<Sink> open_datagram_sink(const SendSettings&, std::unique_ptr<En
 extern const std::array<Option<ReceiveSettings>, 3> receive_options;
 extern const std::array<Option<SendSettings>, 3> send_options;
 
+/// Where senders of a protocol are often set to send.
+struct UsualPlace {
+  std::uint16_t port = 0;
+  std::string group;         ///< a multicast group; empty: the addresses of the receiving machine
+  std::string_view senders;  ///< whose default it is, for a person
+};
+
+/// What a protocol offers to a program that looks for senders.
+struct Detection {
+  /// A way to read the protocol: the options that a source's URL needs for it, and the decoder that they give.
+  struct Reading {
+    std::string options;  ///< "checksum=lenient"; empty: none
+    std::unique_ptr<Decoder> decoder;
+  };
+  /// "Free-D", for a person.
+  std::string_view protocol;
+  /// Whether a datagram claims to be of this protocol, sound or not.
+  bool (*claims)(std::string_view datagram);
+  /// The strictest way first.
+  std::vector<Reading> (*readings)();
+  std::vector<UsualPlace> (*places)();
+};
+
 /// Host and port of the URL. The port must be given where the protocol has no standard one.
 tl::expected<void, std::string> set_place(const Url& url, ReceiveSettings& settings,
                                           std::optional<std::uint16_t> standard_port = {});

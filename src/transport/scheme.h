@@ -41,6 +41,8 @@ std::string udp_url(const std::string& host, std::uint16_t port);
 /// Which way the bytes go: options differ.
 enum class Direction : std::uint8_t { read, write };
 
+struct Detection;
+
 /// What a folder of its own gives to the table (endpoints/endpoints.cpp). Errors name the part, its value and what is
 /// allowed.
 struct Scheme {
@@ -49,6 +51,7 @@ struct Scheme {
   /// `url` and, for sinks, `form` are the table's to fill in.
   tl::expected<SourceEndpoint, std::string> (*source)(const Url&);
   tl::expected<SinkEndpoint, std::string> (*sink)(const Url&);
+  const Detection* detection = nullptr;  ///< null: not a protocol over UDP
 };
 
 /// The options of every sink, whatever its scheme: they are read by the table, not by schemes.

@@ -7,6 +7,16 @@
 
 namespace trk_bridge::trk {
 
+bool claims(std::string_view datagram) noexcept {
+  if (is_trackmen(datagram)) return true;
+  wire::LayoutDetector detector;
+  wire::Record record;
+  wire::DecodedForm form;
+  wire::Fault fault{};
+  if (wire::decode(datagram, detector, record, form, fault)) return true;
+  return fault.reason != wire::Reason::bad_magic && fault.reason != wire::Reason::truncated;
+}
+
 void DatagramDecoder::begin(std::string_view datagram, const transport::Sender& sender) noexcept {
   datagram_ = datagram;
   sender_ = sender;

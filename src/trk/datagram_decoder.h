@@ -10,6 +10,9 @@
 
 namespace trk_bridge::trk {
 
+/// Whether a datagram begins as trk or as TrackMen's packet, whatever follows.
+bool claims(std::string_view datagram) noexcept;
+
 /// Decodes with what each sender's records have shown of its layout so far. Remembers the senders of good records only;
 /// past `capacity` the one that was silent longest gives way. TrackMen's packets are told by their magic.
 class DatagramDecoder final : public transport::Decoder {

@@ -1,6 +1,8 @@
 #include "udp.h"
 
 #include <array>
+#include <string_view>
+#include <vector>
 
 #include "datagram_decoder.h"
 #include "datagram_encoder.h"
@@ -26,6 +28,20 @@ constexpr std::array<Option<UdpSinkSettings>, 2> sink_options{{
     {"binary", transport::switch_allowed,
      [](const std::string& v, UdpSinkSettings& s) { return transport::assign_switch(v, s.binary); }},
 }};
+
+const transport::Detection detection{"trk", claims,
+                                     [] {
+                                       std::vector<transport::Detection::Reading> readings(1);
+                                       readings[0].decoder = std::make_unique<DatagramDecoder>(wire::LayoutChoice{});
+                                       return readings;
+                                     },
+                                     [] {
+                                       return std::vector<transport::UsualPlace>{
+                                           {60005, "", "TrackMen's plugin for Unreal"},
+                                           {12000, "", "receivers of a broadcaster"},
+                                           {3000, "", "Vizrt's engine"},
+                                           {7000, "", "the examples of this package"}};
+                                     }};
 
 }  // namespace
 
@@ -79,6 +95,7 @@ const transport::Scheme udp_scheme{
       transport::SinkEndpoint endpoint;
       endpoint.open = [settings = *settings] { return open_udp_sink(settings); };
       return endpoint;
-    }};
+    },
+    &detection};
 
 }  // namespace trk_bridge::trk

@@ -19,11 +19,11 @@ using testing::StartsWith;
 
 TEST(Presets, AreThoseOfTheFieldWithTheirMasks) {
   const std::map<std::string, std::uint32_t> expected{
-      {"pixotope", 0x001},       {"disguise", 0x001},   {"hippotizer", 0x001}, {"unreal_trackmen", 0x001},
-      {"aximmetry", 0x09C},      {"brainstorm", 0x231}, {"deltatre", 0x031},   {"marketgraph", 0x09E},
-      {"marketgraph_v2", 0x29E}, {"monarch", 0x0B9},    {"nsynk", 0x019},      {"orad", 0x2BC},
-      {"rt_soft", 0x239},        {"freed", 0x001},      {"freed_sony", 0x001}, {"freed_zcam", 0x001},
-      {"freed_vizrt", 0x001},    {"freed_mosys", 0x001}};
+      {"pixotope", 0x001},       {"disguise", 0x001},    {"hippotizer", 0x001}, {"unreal_trackmen", 0x001},
+      {"aximmetry", 0x09C},      {"brainstorm", 0x231},  {"deltatre", 0x031},   {"marketgraph", 0x09E},
+      {"marketgraph_v2", 0x29E}, {"monarch", 0x0B9},     {"nsynk", 0x019},      {"orad", 0x2BC},
+      {"rt_soft", 0x239},        {"nodos", 0x011},       {"freed", 0x001},      {"freed_sony", 0x001},
+      {"freed_zcam", 0x001},     {"freed_vizrt", 0x001}, {"freed_mosys", 0x001}};
   std::map<std::string, std::uint32_t> found;
   for (const auto& preset : presets()) found[preset.name] = preset.format;
   EXPECT_EQ(found, expected);

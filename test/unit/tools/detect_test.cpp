@@ -1,0 +1,198 @@
+// trk detect, as its users run it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "camera_records.h"
+#include "freed_messages.h"
+#include "network_namespace.h"
+#include "program.h"
+#include "reserved_port.h"
+#include "trk_bridge/endpoints/endpoints.h"
+#include "trk_bridge/wire/codec.h"
+#include "udp.h"
+
+namespace trk_bridge::tools {
+namespace {
+
+using test::Program;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// Does it a hundred times a second while it lives.
+class Repeatedly {
+ public:
+  explicit Repeatedly(std::function<void(std::uint64_t round)> act)
+      : thread_([this, act = std::move(act)] {
+          for (std::uint64_t round = 0; !ends_; ++round) {
+            act(round);
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+          }
+        }) {}
+  ~Repeatedly() {
+    ends_ = true;
+    thread_.join();
+  }
+  Repeatedly(const Repeatedly&) = delete;
+  Repeatedly& operator=(const Repeatedly&) = delete;
+
+ private:
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+struct Result {
+  std::map<std::string, nlohmann::json> by_source;
+  std::string err;
+  int exit_code = 0;
+};
+
+Result run(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {TRK_TOOL, "detect", "--json", "--seconds", "2"});
+  Program detect(std::move(arguments));
+  Result result;
+  while (const auto line = detect.out_line()) {
+    auto camera = nlohmann::json::parse(*line);
+    result.by_source[camera.at("source")] = camera;
+  }
+  result.err = detect.rest_of_err();
+  result.exit_code = detect.wait();
+  return result;
+}
+
+template <typename Record>
+std::string trk_datagram(const Record& record) {
+  wire::Buffer buffer;
+  return std::string(wire::encode(record, wire::WireForm{}, buffer).value());
+}
+
+TEST(Detect, NamesWhoSendsWhatToAPort) {
+  const test::ReservedPort port;
+  const test::PlainSocket tracker, head, other;
+  const Repeatedly send([&](std::uint64_t round) {
+    const auto to = [&](const test::PlainSocket& from, const std::string& datagram) {
+      from.send(datagram, "127.0.0.1", port.number());
+    };
+    if (round % 20 == 0) to(tracker, trk_datagram(test::constants(720, 3)));
+    to(tracker, trk_datagram(test::params(round, 3)));
+    std::string message = test::message_of(30, -5, 0, 7);
+    message.back() = '\0';
+    to(head, message);
+    to(other, "hello");
+  });
+  const Result result = run({port.text()});
+  EXPECT_EQ(result.exit_code, 0);
+  ASSERT_EQ(result.by_source.size(), 2u) << result.err;
+
+  const auto& trk = result.by_source.at("udp://:" + port.text());
+  EXPECT_EQ(trk.at("protocol"), "trk");
+  EXPECT_EQ(trk.at("sender"), "127.0.0.1:" + std::to_string(tracker.port()));
+  EXPECT_EQ(trk.at("id"), 3);
+  EXPECT_EQ(trk.at("encoding"), "ASCII");
+  EXPECT_THAT(trk.at("format_words").get<std::string>(), HasSubstr("euler"));
+  EXPECT_TRUE(trk.at("has_constants").get<bool>());
+  EXPECT_GT(trk.at("records").get<int>(), 10);
+  // At most a hundred a second are sent.
+  EXPECT_GT(trk.at("rate").get<double>(), 5);
+  EXPECT_LT(trk.at("rate").get<double>(), 101);
+  EXPECT_EQ(trk.at("pan"), nlohmann::json({30, 30}));
+  EXPECT_EQ(trk.at("z"), nlohmann::json({1.75, 1.75}));
+  EXPECT_THAT(trk.at("launch").get<std::string>(), HasSubstr("id:=3"));
+
+  const auto& free_d = result.by_source.at("freed://:" + port.text() + "?checksum=lenient");
+  EXPECT_EQ(free_d.at("protocol"), "Free-D");
+  EXPECT_EQ(free_d.at("id"), 7);
+  EXPECT_NEAR(free_d.at("pan")[0].get<double>(), -30, 1e-9) << "to the right";
+  EXPECT_THAT(free_d.at("doubts").dump(), HasSubstr("wrong checksum"));
+
+  EXPECT_THAT(result.err, HasSubstr("datagrams from 127.0.0.1:" + std::to_string(other.port()) +
+                                    ", no protocol that is known here (the last one has 5 bytes: 68 65 6c 6c 6f)"));
+  EXPECT_THAT(result.err, Not(HasSubstr("Free-D with a fault")));
+}
+
+TEST(Detect, AMessageThatNobodyCanReadIsNamedWithItsProtocol) {
+  const test::ReservedPort port;
+  const test::PlainSocket head;
+  const Repeatedly send([&](std::uint64_t) {
+    std::string message = test::message_of(30, -5, 0, 7);
+    message.front() = '\xD2';
+    head.send(message, "127.0.0.1", port.number());
+  });
+  const Result result = run({port.text()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("Free-D with a fault: Free-D message D2"), HasSubstr("nothing was found")));
+}
+
+/// With a network of its own, since the port is a real one.
+TEST(Detect, FindsGroupsAmongAllUsualPlaces) {
+  std::optional<test::NetworkNamespace> network;
+  try {
+    network.emplace();
+  } catch (const std::runtime_error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const test::NetworkNamespace::Stay stay(*network);
+  const auto group = endpoints::open_sink("opentrackio://?source=200&interface=127.0.0.1");
+  const auto unicast = endpoints::open_sink("opentrackio://127.0.0.1?source=4");
+  const Repeatedly send([&](std::uint64_t round) {
+    for (auto* sink : {group.get(), unicast.get()}) {
+      (void)sink->write(test::constants());
+      (void)sink->write(test::params(round));
+    }
+  });
+  const Result result = run({});
+  EXPECT_EQ(result.exit_code, 0);
+  ASSERT_EQ(result.by_source.size(), 2u) << result.err;
+  EXPECT_EQ(result.by_source.at("opentrackio://239.135.1.200:55555").at("id"), 200);
+  EXPECT_EQ(result.by_source.at("opentrackio://:55555").at("id"), 4);
+  EXPECT_THAT(result.err, Not(HasSubstr("not heard")));
+  EXPECT_THAT(result.err, HasSubstr(" 40000 "));
+}
+
+TEST(Detect, NothingSaysWhatToCheck) {
+  const test::ReservedPort port;
+  const Result result = run({port.text()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.by_source, IsEmpty());
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("nothing was found"), HasSubstr("tcpdump"), HasSubstr("firewall"), HasSubstr("IGMP")));
+}
+
+TEST(Detect, APortOfAnotherProgramIsNotTakenFromIt) {
+  const test::PlainSocket owner;
+  const Result result = run({std::to_string(owner.port())});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("not heard"), HasSubstr("the port is in use")));
+}
+
+TEST(Detect, WhatIsNoPortIsRefused) {
+  for (const std::string port : {"0", "70000", "udp", "host:", "239.1.1.1:0"}) {
+    const Result result = run({port});
+    EXPECT_EQ(result.exit_code, 2) << port;
+    EXPECT_THAT(result.err, HasSubstr("PORT = \"" + port + "\": allowed are 1 to 65535")) << port;
+  }
+}
+
+TEST(Detect, ListsTheUsualPlaces) {
+  Program list({TRK_TOOL, "detect", "--list"});
+  const std::string text = list.rest_of_out();
+  EXPECT_EQ(list.wait(), 0);
+  EXPECT_THAT(text, AllOf(HasSubstr("60005  trk"), HasSubstr("1111  Free-D  Panasonic"),
+                          HasSubstr("239.135.1.1 to 239.135.1.200"), HasSubstr("235.135.1.1 to 235.135.1.200")));
+}
+
+}  // namespace
+}  // namespace trk_bridge::tools
