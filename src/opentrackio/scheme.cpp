@@ -122,11 +122,11 @@ const transport::Detection detection{
       return readings;
     },
     [] {
-      std::vector<transport::UsualPlace> places{{standard_port, "", "OpenTrackIO, unicast"}};
+      std::vector<transport::UsualPlace> places{{standard_port, "", "unicast"}};
       for (const std::string_view group : groups) {
         for (std::uint32_t source = 1; source <= highest_source; ++source) {
-          places.push_back({standard_port, group_of(group, source),
-                            group == groups.front() ? "OpenTrackIO 1.0.1" : "OpenTrackIO 1.0.0"});
+          places.push_back(
+              {standard_port, group_of(group, source), group == groups.front() ? "version 1.0.1" : "version 1.0.0"});
         }
       }
       return places;

@@ -57,7 +57,7 @@ TEST(Detected, ACameraInAStudioIsPlausible) {
   const auto lines = lines_of(one);
   EXPECT_THAT(lines, Contains("  axes      plausible"));
   EXPECT_THAT(lines, Contains("  position  x 1.50, y -2.00, height 1.75 m"));
-  EXPECT_THAT(lines, Contains("  angles    pan 30.0, tilt -5.0, roll 0.3 degrees"));
+  EXPECT_THAT(lines, Contains("  angles    pan 30.0, tilt -5.0, roll 0.2 degrees"));
   EXPECT_THAT(lines, Contains("  rate      1.00 Hz; 2 records, none lost"));
   // 2 atan(8.8 / 2 / 42)
   EXPECT_THAT(lines,
@@ -103,7 +103,7 @@ TEST(Detected, MovesAreToldWithTheirSigns) {
   auto panned = test::params(2);
   panned.euler.pan = 45;
   const auto lines = lines_of(found(test::params(1), panned));
-  EXPECT_THAT(lines, Contains("  angles    pan 30.0 to 45.0, tilt -5.0, roll 0.3 degrees"));
+  EXPECT_THAT(lines, Contains("  angles    pan 30.0 to 45.0, tilt -5.0, roll 0.2 degrees"));
   EXPECT_THAT(lines, Contains(HasSubstr("right where pan to the left")));
 }
 
