@@ -41,7 +41,7 @@ TEST(TrkPresets, AreJsonForPrograms) {
     EXPECT_NE(one["quirks"].GetStringLength(), 0U);
     EXPECT_NE(one["format_words"].GetStringLength(), 0U);
   }
-  EXPECT_EQ(masks.size(), 18U);
+  EXPECT_EQ(masks.size(), 19U);
   EXPECT_EQ(masks["orad"], 0x2BCU);
   presets.rest_of_err();
   EXPECT_EQ(presets.wait(), 0);
