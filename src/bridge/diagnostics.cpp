@@ -204,7 +204,8 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
   } else if (camera.withheld > old.withheld) {
     warn(found, Condition::withheld, "params withheld: " + camera::describe(camera.withhold_reason));
   } else if (!camera.has_lens) {
-    found.push_back({Condition::pose_only, Level::ok, "the records have no lens: of them, tf and, where there are any, lens_encoders are published"});
+    found.push_back({Condition::pose_only, Level::ok,
+                     "the records have no lens: of them, tf and, where there are any, lens_encoders are published"});
   } else if (no_constants && options.publish_camera_info && camera.sequence.accepted > 0) {
     warn(found, Condition::no_constants, "no constants yet: no camera_info");
   }
