@@ -29,7 +29,7 @@ transport::Decoder::Next Decoder::next(transport::Sample& into, transport::Fault
         fill(into);
         auto constants = *options_.table->constants();
         constants.id = read_.message.camera;
-        into.record = constants;
+        into.record = wire::Record(constants);
         return Next::sample;
       }
     }
@@ -69,7 +69,7 @@ transport::Decoder::Next Decoder::next(transport::Sample& into, transport::Fault
     params.focdist = lens->focdist;
     params.aperture = lens->aperture;
   }
-  into.record = params;
+  into.record = wire::Record(params);
   return Next::sample;
 }
 

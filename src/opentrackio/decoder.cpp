@@ -94,12 +94,12 @@ transport::Decoder::Next PacketDecoder::next(transport::Sample& into, transport:
   into.has_counter = records_.has_counter;
   into.has_lens = true;
   if (records_.constants) {
-    into.record = *records_.constants;
+    into.record = wire::Record(*records_.constants);
     records_.constants.reset();
     return Next::sample;
   }
   into.has_lens = records_.has_lens;
-  into.record = *records_.params;
+  into.record = wire::Record(*records_.params);
   records_.params.reset();
   return Next::sample;
 }

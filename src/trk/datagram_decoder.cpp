@@ -31,7 +31,7 @@ transport::Decoder::Next DatagramDecoder::next(transport::Sample& into, transpor
       fault = params.error();
       return Next::fault;
     }
-    into.record = *params;
+    into.record = wire::Record(*params);
     into.origin = "binary trackmen";
   } else {
     wire::DecodedForm form;
