@@ -49,7 +49,7 @@ Read<double> number_or(const YAML::Node& map, const std::string& key, double oth
 
 Read<double> positive(const YAML::Node& map, const std::string& key) {
   const auto value = base::yaml_value(map, key);
-  const auto number = number_of(value);
+  auto number = number_of(value);
   if (number && *number <= 0) return fault(value.mark, key + ": must be more than 0, is " + text_of(*number));
   return number;
 }
@@ -93,7 +93,7 @@ Read<double> image_distance_of(const YAML::Node& row, const std::optional<wire::
     return fault(row.Mark(), "either focal_length (mm) or field_of_view (degrees) must be given");
   }
   if (has_focal_length) return positive(row, "focal_length");
-  const auto degrees = number_of(angle);
+  auto degrees = number_of(angle);
   if (!degrees) return degrees;
   if (!(*degrees > 0 && *degrees < 180)) {
     return fault(angle.mark, "field_of_view: must be more than 0 and less than 180 degrees, is " + text_of(*degrees));
