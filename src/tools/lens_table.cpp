@@ -93,7 +93,8 @@ plot::Panel panel_over_zoom(const lens::Table& table, const std::string& y_name,
   plot::Panel panel{"zoom encoder", y_name, {table.first().zoom, table.last().zoom}, {}, {}};
   Range range;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto& [name, value] = values[i];
+    const std::string& name = values[i].first;
+    const Value value = values[i].second;
     const auto add = [&](double focus, const char* colour) {
       add_curve(table, focus, value, colour, breathes(table) ? name + ", focus " + text_of(focus) : name, panel.curves);
     };
