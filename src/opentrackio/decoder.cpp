@@ -70,7 +70,7 @@ void PacketDecoder::begin(std::string_view datagram, const transport::Sender& se
   }
   auto records = reader_.read(sample_);
   if (records) {
-    records_ = *std::move(records);
+    records_ = *records;
   } else {
     fault_ = records.error();
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -98,9 +97,14 @@ void take_custom(const Sample& sample, Into& into) noexcept {
       into);
 }
 
+/// Unlike ==, tells 0 from -0.
 template <typename Number>
 bool same_bits(Number a, Number b) noexcept {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  if constexpr (std::is_floating_point_v<Number>) {
+    return a == b && std::signbit(a) == std::signbit(b);
+  } else {
+    return a == b;
+  }
 }
 
 /// Fields that a reader of the rest would not come to.
@@ -351,8 +355,9 @@ tl::expected<Sample, transport::Fault> RecordsWriter::sample_of(
   sample.set(Id::source_number, number);
   sample.set(Id::sequence_number, static_cast<double>(params.counter & 0xFFFFU));
   const std::int64_t tai = nanoseconds + settings_.tai_offset * second;
-  sample.set(Id::timestamp_seconds, static_cast<double>(tai / second));
-  sample.set(Id::timestamp_nanoseconds, static_cast<double>(tai % second));
+  const std::int64_t whole_seconds = tai / second, rest = tai % second;
+  sample.set(Id::timestamp_seconds, static_cast<double>(whole_seconds));
+  sample.set(Id::timestamp_nanoseconds, static_cast<double>(rest));
   if (settings_.rate) {
     const Ratio ratio = ratio_of(*settings_.rate);
     sample.set(Id::sample_rate_num, ratio.num);

@@ -327,7 +327,7 @@ void write_static(const Sample& sample, const Names& names, Json& document) {
 std::string path_of(std::size_t member) {
   if (member >= member_count || member == index(Id::root)) return "the sample";
   const auto parent = index(members[member].parent);
-  const std::string name(members[member].name);
+  std::string name(members[member].name);
   if (parent == index(Id::root)) return name;
   return name.empty() ? path_of(parent) : path_of(parent) + "." + name;
 }
