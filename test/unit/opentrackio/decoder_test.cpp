@@ -239,7 +239,7 @@ TEST(OpenTrackIoDecoder, Headers) {
     return all.faults.empty() ? "" : all.faults.front();
   };
   EXPECT_THAT(fault_with(0, 'o'), HasSubstr("OTrk"));
-  for (const std::size_t at : {4, 5, 6, 7, 8, 9, 10, 11, 14, 15, 16, 17}) {
+  for (const std::size_t at : {4U, 5U, 6U, 7U, 8U, 9U, 10U, 11U, 14U, 15U, 16U, 17U}) {
     EXPECT_EQ(fault_with(at, 'x'), "wrong checksum") << at;
   }
   EXPECT_THAT(fault_with(13, 3), HasSubstr("as long as"));
@@ -274,7 +274,7 @@ TEST(OpenTrackIoDecoder, SegmentsAreOneSample) {
 TEST(OpenTrackIoDecoder, SegmentsOfTwoSendersDoNotMix) {
   PacketDecoder decoder(false, 37);
   const auto one = segments(5, 0xFFFF), other = segments(6, 10);
-  for (int i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_THAT(given(decoder, one[i], 1).samples, IsEmpty());
     EXPECT_THAT(given(decoder, other[i], 2).samples, IsEmpty());
   }
@@ -283,13 +283,13 @@ TEST(OpenTrackIoDecoder, SegmentsOfTwoSendersDoNotMix) {
 }
 
 TEST(OpenTrackIoDecoder, ASampleThatLacksASegmentIsDiscardedWhole) {
-  for (int missing = 0; missing < 3; ++missing) {
+  for (std::size_t missing = 0; missing < 3; ++missing) {
     PacketDecoder decoder(false, 37);
     std::vector<std::string> faults;
     std::vector<std::uint64_t> counters;
     for (int sample = 0; sample < 3; ++sample) {
       const auto parts = segments(sample, 3U * static_cast<unsigned>(sample));
-      for (int i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i) {
         if (sample == 1 && i == missing) continue;
         const Given all = given(decoder, parts[i]);
         faults.insert(faults.end(), all.faults.begin(), all.faults.end());
