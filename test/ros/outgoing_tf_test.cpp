@@ -195,16 +195,17 @@ TEST_F(FromTfInTime, ADelayIsExactByTheStampsOfTf) {
   EXPECT_GE(std::stod(diagnostics.value(status_name(receiver.url()), "age of what is sent (ms)")), 50);
 }
 
-/// A tick at a random phase of tf would give ages of up to 20 ms, and others after each start.
+/// A tick at a random phase of tf would give least ages anywhere up to 20 ms, others after each start. The tick keeps a
+/// distance to poses that come unevenly, as on a busy machine.
 TEST_F(FromTfInTime, TheAgeIsTheSameAfterEveryStart) {
-  for (const int phase : {0, 7, 13}) {
+  for (const int phase : {0, 5, 10, 15}) {
     node.reset();
     std::this_thread::sleep_for(std::chrono::milliseconds(phase));
     ASSERT_NO_FATAL_FAILURE(open(50));
     info_publisher.publish(info());
     ages.clear();
     ASSERT_TRUE(moves_until([&] { return ages.size() >= 100; }));
-    EXPECT_LT(least_age(), 0.003) << "started " << phase << " ms later";
+    EXPECT_LT(least_age(), 0.008) << "started " << phase << " ms later";
   }
 }
 
