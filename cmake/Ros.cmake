@@ -9,6 +9,7 @@ find_package(catkin REQUIRED COMPONENTS
   roscpp
   sensor_msgs
   std_msgs
+  std_srvs
   tf2_ros
   visualization_msgs
   xmlrpcpp
@@ -29,6 +30,7 @@ find_package(rviz REQUIRED)
 find_package(Qt5 ${rviz_QT_VERSION} REQUIRED COMPONENTS Core Gui Widgets)
 
 add_message_files(DIRECTORY msg FILES CameraConstants.msg CameraParams.msg LensEncoders.msg TimeCode.msg)
+add_service_files(DIRECTORY srv FILES SetSeconds.srv)
 generate_messages(DEPENDENCIES std_msgs)
 
 catkin_package(
@@ -45,6 +47,7 @@ catkin_package(
     roscpp
     sensor_msgs
     std_msgs
+    std_srvs
     tf2_ros
     visualization_msgs
     xmlrpcpp

@@ -24,7 +24,8 @@ CameraPipeline::CameraPipeline(const CameraOptions& options, std::optional<doubl
       finds_rate_(!field_rate),
       sequence_(field_rate.value_or(assumed_field_rate), options.counter),
       stamper_(nanoseconds_of(options.delay)),
-      converter_(options.format) {
+      converter_(options.format),
+      calibrator_(options.plumb_bob_tolerance) {
   if (options.constants && converter_.use(*options.constants) != ConstantsChange::unsound) {
     statistics_.constants = ConstantsOrigin::parameter;
   }
@@ -41,6 +42,11 @@ CameraUpdate CameraPipeline::initial() const noexcept {
   CameraUpdate update;
   if (converter_.outgoing() != nullptr) update.constants = *converter_.outgoing();
   return update;
+}
+
+void CameraPipeline::set(const LiveOptions& live) noexcept {
+  static_cast<LiveOptions&>(options_) = live;
+  stamper_.set_delay(nanoseconds_of(live.delay));
 }
 
 CameraUpdate CameraPipeline::process(const transport::Sample& sample, std::int64_t now) noexcept {
@@ -195,7 +201,10 @@ void CameraPipeline::add_lens(const camera::Converted& converted, CameraUpdate& 
     ++statistics_.withheld;
     statistics_.withhold_reason = converted.params.error();
   }
-  if (!options_.publish_camera_info) return;
+  if (!options_.publish_camera_info) {
+    statistics_.has_camera_info = false;
+    return;
+  }
   const auto* const constants = converter_.incoming();
   update.uncalibrated = {converted.lens, constants == nullptr ? std::nullopt : std::optional(*constants)};
 }

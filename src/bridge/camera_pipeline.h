@@ -103,6 +103,9 @@ class CameraPipeline {
   /// What is known before the first sample: constants of the parameter where there are any.
   CameraUpdate initial() const noexcept;
 
+  /// From the next sample on.
+  void set(const LiveOptions&) noexcept;
+
   /// Takes a sample whose record wants() is true for. `now` is the steady clock's time of receipt, ns.
   [[nodiscard]] CameraUpdate process(const transport::Sample&, std::int64_t now) noexcept;
   /// The same in two steps, because fitting a lens takes longer than all the rest: an update without calibration, which

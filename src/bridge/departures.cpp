@@ -23,7 +23,6 @@ Departures::Departures(DepartureOptions options, std::vector<Destination> destin
     if (!is_paced && !is_timed(timing)) continue;
     paced_.push_back(i);
     timings_.push_back(timing);
-    longest_delay_ = std::max({longest_delay_, timing.delay.position, timing.delay.rotation, timing.delay.lens});
   }
   if (paced_.empty()) return;
   // Parameters that come and those that are due, and constants.
@@ -37,9 +36,11 @@ void Departures::finish() {
   if (!thread_.joinable()) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    std::int64_t delay = 0;
+    for (const auto& [one, lead] : timings_) delay = std::max({delay, one.position, one.rotation, one.lens});
     double period = 0;
     for (const auto& [id, camera] : cameras_) period = std::max(period, camera.paced.rhythm().period());
-    end_ = base::steady_now() + (longest_delay_ > 0 ? longest_delay_ + static_cast<std::int64_t>(period) : 0);
+    end_ = base::steady_now() + (delay > 0 ? delay + static_cast<std::int64_t>(period) : 0);
     wakes_ = true;
   }
   changed_.notify_all();
@@ -143,6 +144,16 @@ void Departures::collect(Camera& camera, std::int64_t now) {
   }
   camera.new_constants.reset();
   camera.as_it_came.reset();
+}
+
+bool Departures::set_timing(std::size_t destination, const OutputTiming& timing) {
+  const auto found = std::find(paced_.begin(), paced_.end(), destination);
+  if (found == paced_.end()) return false;
+  const auto output = static_cast<std::size_t>(found - paced_.begin());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  timings_[output] = timing;
+  for (auto& [id, camera] : cameras_) camera.paced.set_timing(output, timing);
+  return true;
 }
 
 std::optional<DepartureStatistics> Departures::statistics(std::size_t destination) const {

@@ -59,6 +59,9 @@ class Departures {
   /// `lens_time` is when the lens of the parameters was true, ns; 0: as `time`.
   void write(const wire::CameraParams&, const transport::RecordTime& time = {}, std::int64_t lens_time = 0);
   void write(const OutgoingSet&);
+  /// Changes when a destination's records are of, from the next departure on; false where no timer sends to it. Any
+  /// thread.
+  bool set_timing(std::size_t destination, const OutputTiming&);
   /// Sends what is still to come of the samples that it has, which takes the longest delay, and ends the timer.
   void finish();
 
@@ -89,10 +92,9 @@ class Departures {
   const DepartureOptions options_;
   const std::vector<Destination> destinations_;
   std::vector<std::size_t> paced_;  // numbers of destinations
-  std::vector<OutputTiming> timings_;
-  std::int64_t longest_delay_ = 0;
 
   mutable std::mutex mutex_;  // of what follows
+  std::vector<OutputTiming> timings_;
   std::condition_variable changed_;
   bool wakes_ = false;
   std::optional<std::int64_t> end_;  // steady clock

@@ -64,6 +64,9 @@ class PacedCamera {
   /// with each, from that of the first sample.
   std::optional<Departure> take(std::size_t output, std::int64_t now, std::int64_t clock) noexcept;
 
+  /// From the next departure on. A longer delay holds an output until what is to be sent is newer than what it has got.
+  void set_timing(std::size_t output, const OutputTiming& timing) noexcept { outputs_[output].timing = timing; }
+
   DepartureStatistics statistics(std::size_t output) const noexcept;
   const PhaseLock& rhythm() const noexcept { return rhythm_; }
 

@@ -30,6 +30,9 @@ class Stamper {
 
   explicit Stamper(std::chrono::nanoseconds delay) noexcept : delay_(delay.count()) {}
 
+  /// Counts from the next stamp on. A longer one holds stamps until the time has caught up.
+  void set_delay(std::chrono::nanoseconds delay) noexcept { delay_ = delay.count(); }
+
   /// `time` and the stamp in nanoseconds since 1970 UTC. None where it cannot be a stamp.
   [[nodiscard]] std::optional<std::int64_t> stamp(std::int64_t time) noexcept;
 

@@ -44,13 +44,13 @@ std::array<double, 9> camera_matrix(const Lens& lens, const wire::CameraConstant
   return {raster.mx * lens.image_distance, 0, axis.x(), 0, raster.my * lens.image_distance, axis.y(), 0, 0, 1};
 }
 
-Result<Calibrator::Fit> Calibrator::fit(const Key& key) noexcept {
+Result<Calibrator::Fit> Calibrator::fit(const Key& key) const noexcept {
   const double squared = key.reach * key.reach;
   const double undistorted_reach = key.reach * (1 + squared * (key.k1 + squared * key.k2));
   const double unit = undistorted_reach * undistorted_reach;
   const double pixels = key.pixels_per_mm * undistorted_reach;
   const auto fitted =
-      fit_radial(key.k1 * unit, key.k2 * unit * unit, key.reach / undistorted_reach, plumb_bob_tolerance / pixels);
+      fit_radial(key.k1 * unit, key.k2 * unit * unit, key.reach / undistorted_reach, tolerance_ / pixels);
   if (!fitted) return tl::unexpected(fitted.error());
   return Fit{key, undistorted_reach, {fitted->model, in_opencv_order(fitted->radial), fitted->residual * pixels}};
 }

@@ -1,6 +1,7 @@
 #include "test_card.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <exception>
 #include <random>
@@ -23,6 +24,11 @@ namespace {
 
 /// A camera with more pixels than this would fill the memory rather than a screen.
 constexpr std::int64_t most_pixels = 64 << 20;
+
+/// The share that the newest picture has in the average cost.
+constexpr double newest_cost = 0.1;
+/// Of the period: a machine that needs less than this is fast enough again.
+constexpr double enough_room = 0.8;
 
 /// CameraInfos kept until an image of their time is to be rectified: as many as come while one is made, and more.
 constexpr std::size_t kept_infos = 100;
@@ -83,6 +89,7 @@ void TestCard::receive(const trk_bridge::CameraParamsConstPtr& message) {
   if (!raw && !rectified) return;
   const auto now = Clock::now();
   if (now < due_) return;
+  note_cost();
   // Counted from when it was due, so that the rate holds on the average whatever the rate of params; what was missed is
   // not made up for.
   due_ = std::max(due_ + period_, now);
@@ -91,12 +98,15 @@ void TestCard::receive(const trk_bridge::CameraParamsConstPtr& message) {
   if (raw) images_.publish(image_);
   to_be_rectified_ = rectified;
   rectify_if_possible();
+  spent_ += Clock::now() - now;
 }
 
 void TestCard::receive(const sensor_msgs::CameraInfoConstPtr& message) {
   if (infos_.size() == kept_infos) infos_.pop_front();
   infos_.push_back(message);
+  const auto begin = Clock::now();
   rectify_if_possible();
+  spent_ += Clock::now() - begin;
 }
 
 bool TestCard::render(const trk_bridge::CameraParams& params) {
@@ -120,6 +130,20 @@ bool TestCard::render(const trk_bridge::CameraParams& params) {
   cv::Mat picture = picture_of(image_, view->width(), view->height());
   draw(figure_, *view, picture);
   return true;
+}
+
+void TestCard::note_cost() {
+  cost_ += newest_cost * (std::chrono::duration<double>(spent_).count() - cost_);
+  spent_ = {};
+  const double period = std::chrono::duration<double>(period_).count();
+  // Once it has been reported, some room is needed to take it back.
+  const bool is_slow = cost_ > (speed_trouble_.reported.empty() ? period : enough_room * period);
+  if (is_slow == !speed_trouble_.reported.empty()) return;
+  speed_trouble_.report(!is_slow
+                            ? ""
+                            : "this machine is too slow: a picture takes " + std::to_string(std::lround(cost_ * 1e3)) +
+                                  " ms, and one is wanted every " + std::to_string(std::lround(period * 1e3)) +
+                                  " ms. Pictures come late, and an overlay is not to be trusted: lower rate");
 }
 
 bool TestCard::rectified_wanted() const {

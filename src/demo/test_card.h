@@ -25,6 +25,7 @@ namespace trk_bridge::demo {
 /// subscribes. `rectified/image` is image_rect again, with a `rectified/camera_info` that comes before each image and
 /// has its stamp and no distortion: viewers that take the newest CameraInfo for any image are right then while the lens
 /// zooms. Neither tf nor CameraInfo has a part in image_raw: whether they agree with it can be seen and measured.
+/// Where pictures take longer than the time between them, a warning says that they come too late to be compared.
 /// The card itself is published as markers, latched, on `test_card`, and the delay of the video, that pictures are
 /// stamped later than the params that they show (std_msgs/Float64, s), latched on `video_delay`. All callbacks come
 /// from one thread.
@@ -45,6 +46,8 @@ class TestCard {
   void rectify(const sensor_msgs::CameraInfo&);
   void rectify_if_possible();
   bool rectified_wanted() const;
+  /// The picture before is done.
+  void note_cost();
 
   /// What is wrong, "" for nothing: logged when it changes.
   struct Trouble {
@@ -63,7 +66,9 @@ class TestCard {
   ::ros::Time shown_;             // stamp of the params that image_ shows
   bool to_be_rectified_ = false;  // image_, once its CameraInfo has come
   image_geometry::PinholeCameraModel model_;
-  Trouble picture_trouble_, rectification_trouble_;
+  Clock::duration spent_{};  // on the picture that was begun last
+  double cost_ = 0;          // s, of a picture, on the average of the last ones
+  Trouble picture_trouble_, rectification_trouble_, speed_trouble_;
 
   image_transport::Publisher images_, rectified_images_, paired_images_;
   ::ros::Publisher paired_infos_, markers_, delay_publisher_;

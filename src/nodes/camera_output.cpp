@@ -13,6 +13,7 @@ CameraOutput::CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&
       messages_(parameters.frames),
       field_rate_(field_rate.value_or(bridge::assumed_field_rate)),
       marker_topic_(markers),
+      options_(parameters.options),
       reporter_(parameters.name) {
   if (parameters.publish_markers) {
     markers_.emplace(parameters.name, parameters.frames.optical, parameters.marker_far,
@@ -32,6 +33,7 @@ CameraOutput::CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&
 }
 
 bridge::CameraUpdate CameraOutput::process(const transport::Sample& sample, std::int64_t now) {
+  if (is_changed_.exchange(false, std::memory_order_acquire)) pipeline_.set(live_.load());
   auto update = pipeline_.begin(sample, now);
   statistics_.store(pipeline_.statistics());
   return update;
@@ -80,10 +82,16 @@ void CameraOutput::publish_markers() {
   }
 }
 
+void CameraOutput::set(const bridge::LiveOptions& live) {
+  static_cast<bridge::LiveOptions&>(options_) = live;
+  live_.store(live);
+  is_changed_.store(true, std::memory_order_release);
+}
+
 bridge::Status CameraOutput::describe(bridge::CameraReport report) {
   report.camera = statistics_.load();
   report.markers = marker_statistics_.load();
-  return reporter_.status(std::move(report), parameters_.options, field_rate_);
+  return reporter_.status(std::move(report), options_, field_rate_);
 }
 
 }  // namespace trk_bridge::nodes

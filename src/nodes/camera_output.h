@@ -1,6 +1,7 @@
 // One camera's topics, fed by its pipeline.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 
@@ -19,8 +20,8 @@
 namespace trk_bridge::nodes {
 
 /// Publishing is apart from processing: the tf of several cameras goes out as one message, before the rest, and a
-/// CameraInfo, whose lens has to be fitted, after all that does not need it. All but describe() belongs to one reader's
-/// thread, describe() to the diagnostics' one.
+/// CameraInfo, whose lens has to be fitted, after all that does not need it. All but set() and describe() belongs to
+/// one reader's thread, these to that of the node's callbacks.
 class CameraOutput {
  public:
   /// Advertises `params`, `constants`, `camera_info`, `time_code` and `lens_encoders` in the namespace of `node`, and
@@ -43,10 +44,15 @@ class CameraOutput {
   /// Makes and publishes the CameraInfo, and the markers: the last of what is ready.
   void publish_camera_info();
 
+  /// Changes what can be changed, from the next sample on. For the thread of describe().
+  void set(const bridge::LiveOptions&);
+  const bridge::LiveOptions& live() const noexcept { return options_; }
+
   /// `report` is of this moment but for the camera's part, which is added here. Findings of a kind that was not met
   /// before go to the log, too.
   bridge::Status describe(bridge::CameraReport report);
 
+  /// As they were given.
   const ros1::CameraParameters& parameters() const noexcept { return parameters_; }
 
  private:
@@ -60,6 +66,9 @@ class CameraOutput {
   std::optional<ros1::CameraMarkers> markers_;
   double field_rate_;
   ::ros::Publisher params_, constants_, camera_info_, time_code_, lens_encoders_, marker_topic_;
+  bridge::CameraOptions options_;  // with what was changed since, of the thread of describe()
+  base::Snapshot<bridge::LiveOptions> live_;
+  std::atomic<bool> is_changed_{false};
   base::Snapshot<bridge::CameraStatistics> statistics_;
   base::Snapshot<bridge::MarkerStatistics> marker_statistics_;
   StatusReporter<bridge::CameraReport> reporter_;

@@ -1,5 +1,7 @@
 #include "ros_to_trk.h"
 
+#include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -16,7 +18,11 @@ RosToTrk::RosToTrk(const ::ros::NodeHandle& node, const ::ros::NodeHandle& priva
   const auto parameters = read_parameters(private_node, [&](const auto& tree) {
     return ros1::read_ros_to_trk_parameters(tree, camera_name_of(node.getNamespace()));
   });
-  for (const auto& sink : parameters.sinks) sinks_.add(sink, parameters.form);
+  form_ = parameters.form;
+  for (const auto& sink : parameters.sinks) {
+    sinks_.add(sink, parameters.form);
+    own_forms_.push_back(sink.form);
+  }
   std::vector<bridge::Destination> destinations;
   for (const auto& sink : sinks_.all()) {
     destinations.push_back({bridge::timing_of(sink->form()),
@@ -27,6 +33,7 @@ RosToTrk::RosToTrk(const ::ros::NodeHandle& node, const ::ros::NodeHandle& priva
   const bool is_tf = parameters.input == ros1::OutgoingInput::tf;
   if (is_tf) {
     sent_.emplace(node, parameters);
+    own_forms_.emplace_back();
     destinations.push_back({bridge::timing_of(parameters.form),
                             parameters.pace,
                             [this](const auto& record, const auto& time) { sent_->write(record, time.nanoseconds); },
@@ -49,7 +56,33 @@ RosToTrk::RosToTrk(const ::ros::NodeHandle& node, const ::ros::NodeHandle& priva
     auto& sink = *sinks_.all()[i];
     diagnostics_.add(sink.url(), [this, &sink, i] { return sink.describe(departures_->statistics(i)); });
   }
+  advertise_services(private_node);
   diagnostics_.start();
+}
+
+void RosToTrk::advertise_services(::ros::NodeHandle node) {
+  const auto nanoseconds = [](double seconds) { return std::llround(seconds * 1e9); };
+  services_.push_back(advertise_seconds(node, "set_delay", ros1::sink_delay_range, [this, nanoseconds](double seconds) {
+    form_.delay = transport::Delay{nanoseconds(seconds), nanoseconds(seconds), nanoseconds(seconds)};
+    return change_timing();
+  }));
+  services_.push_back(advertise_seconds(node, "set_lead", ros1::sink_lead_range, [this, nanoseconds](double seconds) {
+    form_.lead = nanoseconds(seconds);
+    return change_timing();
+  }));
+}
+
+Answer RosToTrk::change_timing() {
+  std::size_t paced = 0;
+  for (std::size_t i = 0; i < own_forms_.size(); ++i) {
+    const auto timing = bridge::timing_of(transport::with_defaults(own_forms_[i], form_));
+    if (departures_->set_timing(i, timing)) ++paced;
+  }
+  if (paced == 0) return {false, "no timer sends to any sink: start the node with pace, a delay or a lead"};
+  const auto text = [](std::int64_t nanoseconds) { return ros1::shown(static_cast<double>(nanoseconds) / 1e9) + " s"; };
+  const auto timing = bridge::timing_of(form_);
+  return {true, "delay " + text(timing.delay.position) + ", lead " + text(timing.lead) +
+                    ", for all sinks that a timer sends to and whose URL says nothing else"};
 }
 
 }  // namespace trk_bridge::nodes

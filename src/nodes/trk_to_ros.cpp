@@ -6,6 +6,7 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
+#include "live_services.h"
 #include "node.h"
 #include "ros/trk_to_ros_parameters.h"
 #include "trk_bridge/ros/frames.h"
@@ -35,6 +36,10 @@ TrkToRos::TrkToRos(const ::ros::NodeHandle& node, ::ros::NodeHandle private_node
   });
   open(parameters, advertise_markers(private_node, parameters));
   send_static_transforms();
+  for (const auto& camera : cameras_) {
+    const std::string& of_several = camera->parameters().name;
+    advertise_services(*camera, parameters.several ? ::ros::NodeHandle(private_node, of_several) : private_node);
+  }
   diagnostics_.start();
   for (auto& reader : readers_) reader->start();
 }
@@ -58,6 +63,29 @@ void TrkToRos::open(const ros1::TrkToRosParameters& parameters, const ::ros::Pub
                        [camera, reader = readers_.back().get()] { return camera->describe(reader->report()); });
     }
   }
+}
+
+void TrkToRos::advertise_services(CameraOutput& camera, ::ros::NodeHandle node) {
+  services_.push_back(advertise_seconds(node, "set_delay", ros1::stamp_delay_range, [&camera](double seconds) {
+    auto live = camera.live();
+    live.delay = seconds;
+    camera.set(live);
+    return Answer{true, "stamps of " + camera.parameters().name + " are " + ros1::shown(seconds) + " s earlier"};
+  }));
+  const auto add_switch = [&](const std::string& parameter, bool bridge::LiveOptions::*what) {
+    services_.push_back(advertise_switch(node, "set_" + parameter, [&camera, parameter, what](bool on) {
+      const bridge::LiveOptions& at_start = camera.parameters().options;
+      if (!(at_start.*what)) {
+        return Answer{false, parameter + " was false when the node started: what it needs is not there"};
+      }
+      auto live = camera.live();
+      live.*what = on;
+      camera.set(live);
+      return Answer{true, parameter + " of " + camera.parameters().name + " is " + (on ? "on" : "off")};
+    }));
+  };
+  add_switch("publish_tf", &bridge::LiveOptions::publish_tf);
+  add_switch("publish_camera_info", &bridge::LiveOptions::publish_camera_info);
 }
 
 void TrkToRos::send_static_transforms() {

@@ -7,6 +7,7 @@
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
+#include <ros/service_server.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include "camera_output.h"
@@ -26,11 +27,14 @@ class TrkToRos {
  private:
   void open(const ros1::TrkToRosParameters&, const ::ros::Publisher& markers);
   void send_static_transforms();
+  /// Services `set_delay`, `set_publish_tf` and `set_publish_camera_info` of one camera.
+  void advertise_services(CameraOutput&, ::ros::NodeHandle);
 
   ::ros::NodeHandle node_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   std::vector<std::unique_ptr<CameraOutput>> cameras_;
   std::vector<std::unique_ptr<SourceReader>> readers_;
+  std::vector<::ros::ServiceServer> services_;
   NodeDiagnostics diagnostics_;
 };
 

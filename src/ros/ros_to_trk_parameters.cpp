@@ -44,21 +44,20 @@ std::string read_form(ParameterReader& node, transport::SinkForm& form) {
 std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
 void read_delay(ParameterReader& node, transport::SinkForm& form) {
-  const Range range{0, static_cast<double>(transport::Delay::most) / 1e9, "seconds"};
   double all = 0, lead = 0;
   if (node.is_map("delay")) {
     double position = 0, rotation = 0, lens = 0;
     auto parts = *node.map("delay");
     for (auto [key, into] : {std::pair{"position", &position}, {"rotation", &rotation}, {"lens", &lens}}) {
       if (!parts.has(key)) parts.fault(key, "(none)", "must be given: a delay is of position, rotation and lens");
-      parts.number(key, *into, range);
+      parts.number(key, *into, sink_delay_range);
     }
     parts.refuse_unknown();
     form.delay = transport::Delay{nanoseconds(position), nanoseconds(rotation), nanoseconds(lens)};
-  } else if (node.number("delay", all, range)) {
+  } else if (node.number("delay", all, sink_delay_range)) {
     form.delay = transport::Delay{nanoseconds(all), nanoseconds(all), nanoseconds(all)};
   }
-  if (node.number("lead", lead, {0, static_cast<double>(transport::most_lead) / 1e9, "seconds"})) {
+  if (node.number("lead", lead, sink_lead_range)) {
     form.lead = nanoseconds(lead);
   }
 }

@@ -14,6 +14,10 @@
 
 namespace trk_bridge::ros1 {
 
+/// How long before a camera may be sent, and how far it may be extrapolated.
+inline constexpr Range sink_delay_range{0, static_cast<double>(transport::Delay::most) / 1e9, "seconds"};
+inline constexpr Range sink_lead_range{0, static_cast<double>(transport::most_lead) / 1e9, "seconds"};
+
 /// Where ros_to_trk takes its sets from.
 enum class OutgoingInput : std::uint8_t { params, tf };
 

@@ -1,5 +1,6 @@
 #include "trk_to_ros_parameters.h"
 
+#include <limits>
 #include <utility>
 
 #include "markers.h"
@@ -32,7 +33,7 @@ void read_shared(ParameterReader& reader, CameraParameters& camera) {
                 {{"arrival", bridge::StampMode::arrival},
                  {"counter", bridge::StampMode::counter},
                  {"source", bridge::StampMode::source}});
-  reader.number("delay", options.delay, {0, 60, "seconds"});
+  reader.number("delay", options.delay, stamp_delay_range);
   reader.choice("counter", options.counter,
                 {{"auto", base::CounterUse::automatic},
                  {"strict", base::CounterUse::strict},
@@ -41,6 +42,8 @@ void read_shared(ParameterReader& reader, CameraParameters& camera) {
   reader.constants("constants", options.constants);
   reader.flag("publish_tf", options.publish_tf);
   reader.flag("publish_camera_info", options.publish_camera_info);
+  reader.choice("distortion", options.plumb_bob_tolerance,
+                {{"auto", camera::plumb_bob_tolerance}, {"plumb_bob", std::numeric_limits<double>::infinity()}});
   reader.flag("publish_markers", camera.publish_markers);
   reader.number("marker_far", camera.marker_far, more_than(marker_near, "metres", 1000));
 }

@@ -21,6 +21,8 @@ inline constexpr const char* as_received = "as_received";
 tl::expected<std::optional<std::uint32_t>, std::string> parse_published_format(const std::string& words);
 
 inline constexpr Range field_rate_range{1, 1000, "Hz"};
+/// Of what is taken off every stamp.
+inline constexpr Range stamp_delay_range{0, 60, "seconds"};
 
 /// Parameters of one camera.
 struct CameraParameters {

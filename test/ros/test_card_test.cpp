@@ -406,6 +406,20 @@ TEST_F(TestCard, KeepsItsRateAndDrawsTheNewestParams) {
   EXPECT_LE(static_cast<double>(images_->messages.size()), 5 * ran.count() + 2) << "never more, the first one apart";
 }
 
+TEST_F(TestCard, SaysWhenTheMachineIsTooSlow) {
+  const Recorder<rosgraph_msgs::Log> log("/rosout");
+  // No machine draws and rectifies a picture of this size within 4 ms.
+  set_card("rate", 240);
+  ASSERT_NO_FATAL_FAILURE(start_card());
+  EXPECT_TRUE(send_until([](int) { return at(0, -5, 0, 1); },
+                         [&] {
+                           return std::any_of(log.messages.begin(), log.messages.end(), [](const auto& line) {
+                             return line.msg.find("this machine is too slow: a picture takes") != std::string::npos;
+                           });
+                         }))
+      << "it says nothing of the kind";
+}
+
 TEST_F(TestCard, SaysThatThereIsNoPictureWithoutConstants) {
   const Recorder<rosgraph_msgs::Log> log("/rosout");
   ASSERT_NO_FATAL_FAILURE(start_card());

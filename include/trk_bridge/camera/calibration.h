@@ -31,7 +31,7 @@ struct Calibration {
   Distortion distortion;
 };
 
-/// Above this plumb_bob gives way to rational_polynomial (pixels).
+/// Above this plumb_bob gives way to rational_polynomial, unless asked otherwise (pixels).
 inline constexpr double plumb_bob_tolerance = 0.01;
 
 /// K for a lens and constants that have passed check().
@@ -42,10 +42,14 @@ inline constexpr double plumb_bob_tolerance = 0.01;
 /// allocates.
 class Calibrator {
  public:
+  /// `tolerance`: the error in pixels up to which plumb_bob is used; infinite: plumb_bob always.
+  explicit Calibrator(double tolerance = plumb_bob_tolerance) noexcept : tolerance_(tolerance) {}
+
   /// The fit covers the image to its farthest corner from the optical axis, no further: whoever projects points far
-  /// outside of the image must clip first, since there the lens itself may fold. The best model is given however near
-  /// it comes, with its residual, for the caller to warn of; errors are bad_constants, bad_field_of_view (image
-  /// distance), not_finite, not_monotonic (k1, k2 fold within the image) and no_fit.
+  /// outside of the image must clip first, since there the lens itself may fold. The best model within the
+  /// constructor's tolerance is given however near it comes, with its residual, for the caller to warn of; errors are
+  /// bad_constants, bad_field_of_view (image distance), not_finite, not_monotonic (k1, k2 fold within the image) and
+  /// no_fit.
   [[nodiscard]] Result<Calibration> calibrate(const Lens&, const wire::CameraConstants&) noexcept;
 
   /// How many fits were made so far.
@@ -60,8 +64,9 @@ class Calibrator {
     double undistorted_reach = 0;  // mm
     Distortion distortion;         // for an image distance of undistorted_reach
   };
-  static Result<Fit> fit(const Key&) noexcept;
+  Result<Fit> fit(const Key&) const noexcept;
 
+  double tolerance_;
   std::optional<Fit> fit_;
   std::uint64_t fits_ = 0;
 };

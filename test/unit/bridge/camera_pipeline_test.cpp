@@ -242,6 +242,54 @@ TEST(CameraPipeline, WhatIsSwitchedOffIsNotMade) {
   EXPECT_EQ(pipeline.statistics().without_camera_info, 0u);
 }
 
+TEST(CameraPipeline, WhatIsChangedCountsFromTheNextSampleOn) {
+  CameraPipeline pipeline(CameraOptions{}, 50);
+  (void)pipeline.process(sample(constants()), 0);
+  EXPECT_EQ(pipeline.process(sample(params(1), today), 0).stamp, today);
+  LiveOptions live;
+  live.delay = 0.005;
+  live.publish_tf = live.publish_camera_info = false;
+  pipeline.set(live);
+  const auto changed = pipeline.process(sample(params(2), today + field), 0);
+  EXPECT_EQ(changed.stamp, today + field - 5'000'000);
+  EXPECT_TRUE(changed.params);
+  EXPECT_FALSE(changed.pose || changed.calibration);
+  EXPECT_FALSE(pipeline.statistics().has_camera_info);
+  pipeline.set(LiveOptions{});
+  const auto back = pipeline.process(sample(params(3), today + 2 * field), 0);
+  EXPECT_EQ(back.stamp, today + 2 * field);
+  EXPECT_TRUE(back.pose && back.calibration);
+}
+
+TEST(CameraPipeline, ALongerDelayNeverTurnsStampsBack) {
+  CameraPipeline pipeline(CameraOptions{}, 50);
+  const auto before = pipeline.process(sample(params(1), today), 0).stamp;
+  LiveOptions live;
+  live.delay = 0.1;
+  pipeline.set(live);
+  auto newest = before;
+  for (int i = 1; i < 10; ++i) {
+    const auto stamp = pipeline.process(sample(params(1 + static_cast<std::uint64_t>(i)), today + i * field), 0).stamp;
+    EXPECT_GT(stamp, newest);
+    newest = stamp;
+  }
+  EXPECT_EQ(newest, today + 9 * field - 100'000'000);
+}
+
+TEST(CameraPipeline, PlumbBobAlwaysWhereThatIsWanted) {
+  auto p = params(1);
+  p.k1 = 0.004;
+  CameraOptions options;
+  CameraPipeline automatic(options, 50);
+  options.plumb_bob_tolerance = std::numeric_limits<double>::infinity();
+  CameraPipeline always(options, 50);
+  for (auto* pipeline : {&automatic, &always}) (void)pipeline->process(sample(constants()), 0);
+  EXPECT_EQ(automatic.process(sample(p), 0).calibration.value().distortion.model,
+            camera::DistortionModel::rational_polynomial);
+  EXPECT_EQ(always.process(sample(p), 0).calibration.value().distortion.model, camera::DistortionModel::plumb_bob);
+  EXPECT_GT(always.statistics().fit_residual, camera::plumb_bob_tolerance);
+}
+
 TEST(CameraPipeline, WithoutACounterEveryRecordIsNew) {
   CameraPipeline pipeline(CameraOptions{}, 50);
   for (int i = 0; i < 3; ++i) {

@@ -125,6 +125,25 @@ TEST(Departures, ADelayHoldsBackParametersAndNotConstants) {
   EXPECT_EQ(departures.statistics(1)->sent, got.size() - 1);
 }
 
+TEST(Departures, ATimingCanBeChangedWhereATimerSends) {
+  Inbox plain, paced;
+  Departures departures(options(), {plain.destination(), paced.destination({}, true)});
+  EXPECT_FALSE(departures.set_timing(0, delay(80 * ms)));
+  ASSERT_TRUE(feed_until(departures, [&] { return paced.all().size() > 10; }));
+  ASSERT_TRUE(departures.set_timing(1, delay(300 * ms)));
+  const auto before = paced.all().size();
+  ASSERT_TRUE(feed_until(departures, [&] { return paced.all().size() > before + 20; }));
+  const auto got = paced.all();
+  for (std::size_t i = 1; i < got.size(); ++i) EXPECT_GT(got[i].time, got[i - 1].time);
+  EXPECT_GE(got.back().at - got.back().time, 300 * ms);
+  ASSERT_TRUE(departures.set_timing(1, delay(20 * ms)));
+  // A shorter one goes on from where the camera is then; a machine that is busy may be late.
+  ASSERT_TRUE(feed_until(departures, [&] {
+    const auto last = paced.all().back();
+    return last.at - last.time < 200 * ms;
+  }));
+}
+
 TEST(Departures, WhatIsStillToComeIsSentAtTheEnd) {
   for (const std::int64_t late : {std::int64_t{0}, 200 * ms}) {
     Inbox inbox;

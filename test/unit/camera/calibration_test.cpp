@@ -73,6 +73,21 @@ TEST(Calibrator, IsAsNearAsTheModelsCanBe) {
   }
 }
 
+TEST(Calibrator, PlumbBobAlwaysIsAsNearAsPlumbBobCanBe) {
+  // What lens_fit.md has of it.
+  for (const auto& [at_corner, share, residual] : {std::tuple{0.925, 0.92, 0.035}, {1.257, 0.5, 0.724}}) {
+    SCOPED_TRACE(at_corner);
+    const Lens lens = lens_with(at_corner, share);
+    Calibrator calibrator(std::numeric_limits<double>::infinity());
+    const auto calibration = calibrator.calibrate(lens, hd);
+    ASSERT_TRUE(calibration) << describe(calibration.error());
+    const Distortion& distortion = calibration->distortion;
+    EXPECT_EQ(distortion.model, DistortionModel::plumb_bob);
+    EXPECT_NEAR(distortion.residual, residual, 0.05 * residual);
+    EXPECT_NEAR(distortion.residual, measured_residual(lens, hd, distortion), 0.02 * distortion.residual);
+  }
+}
+
 TEST(Calibrator, KeepsPointsJustOutsideOutside) {
   for (double share = 0.5; share <= 1; share += 0.02) {
     const Lens lens = lens_with(0.925, share);

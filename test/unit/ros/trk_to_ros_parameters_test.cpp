@@ -84,6 +84,8 @@ const Wrong wrong_ones[] = {
     {"RateNan", [](XmlRpcValue& t) { t["field_rate"] = std::nan(""); }, "~field_rate = nan", "1 to 1000 Hz"},
     {"Queue", [](XmlRpcValue& t) { t["queue_size"] = 0; }, "~queue_size = 0", "must be 1 to 100000"},
     {"Delay", [](XmlRpcValue& t) { t["delay"] = -0.5; }, "~delay = -0.5", "must be 0 to 60 seconds"},
+    {"Distortion", [](XmlRpcValue& t) { t["distortion"] = "fisheye"; }, "~distortion = 'fisheye'",
+     "must be auto or plumb_bob"},
     {"DelayTooLong", [](XmlRpcValue& t) { t["delay"] = 100; }, "~delay = 100", "must be 0 to 60 seconds"},
     {"Counter", [](XmlRpcValue& t) { t["counter"] = "loose"; }, "~counter = 'loose'", "auto or strict or ignore"},
     {"Failover", [](XmlRpcValue& t) { t["failover"] = -1; }, "~failover = -1", "must be 0 to 60 seconds"},
@@ -221,8 +223,15 @@ TEST(Read, DefaultsNameTheCameraAndItsFrames) {
   EXPECT_FALSE(c.options.id || c.options.constants);
   EXPECT_EQ(c.options.delay, 0);
   EXPECT_TRUE(c.options.publish_tf && c.options.publish_camera_info);
+  EXPECT_EQ(c.options.plumb_bob_tolerance, camera::plumb_bob_tolerance);
   EXPECT_FALSE(c.publish_markers);
   EXPECT_EQ(c.marker_far, 3);
+}
+
+TEST(Read, PlumbBobAlwaysIsATolerance) {
+  auto tree = tree_with_source();
+  tree["distortion"] = "plumb_bob";
+  EXPECT_TRUE(std::isinf(read_trk_to_ros_parameters(tree, "crane1").cameras[0].options.plumb_bob_tolerance));
 }
 
 TEST(Read, StampsAreByCounterOverANetworkUnlessGiven) {
