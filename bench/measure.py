@@ -210,7 +210,7 @@ def measured(rounds, rows):
 
 
 def table(rows):
-    lines = ["| what | ours | beside | | ratio | spread | aim |", "|---|---|---|---|---|---|---|"]
+    lines = ["| what | ours | compared with | | ratio | spread | aim |", "|---|---|---|---|---|---|---|"]
     for row in rows:
         lines.append(f"| {row['what']} | {row['ours']} {row['unit']} | {row['peer']} {row['unit']} | {row['peer is']} | "
                      f"{row['ratio']} | {row['least']} to {row['most']} | {row['aim']} |")

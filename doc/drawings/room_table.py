@@ -1,4 +1,4 @@
-"""The rooms of the code and what each may use: drawn by rooms.py, held against the code by test/doc/rooms_test.py."""
+"""The modules of the code and what each may use: drawn by rooms.py, compared with the code by test/doc/rooms_test.py."""
 
 import typing
 
@@ -24,17 +24,17 @@ ROOMS = {
     "shm": Room("trk in shared memory", ("base", "transport", "wire")),
     "file": Room("trk in files", ("base", "transport", "wire")),
     "opentrackio": Room("OpenTrackIO over UDP", ("base", "camera", "transport", "wire")),
-    "endpoints": Room("URLs, receivers by name",
+    "endpoints": Room("URLs, presets",
                       ("base", "file", "freed", "opentrackio", "shm", "transport", "trk", "wire")),
-    "c_api": Room("the document's functions", ("base", "file", "shm", "transport", "trk", "wire")),
+    "c_api": Room("functions of the document", ("base", "file", "shm", "transport", "trk", "wire")),
     "bridge": Room("pipelines, stamps, diagnostics", ("base", "camera", "transport", "wire")),
-    "plot": Room("curves as SVG"),
-    "delay": Room("delay of video, measured", ("camera", "plot", "wire")),
+    "plot": Room("plots as SVG"),
+    "delay": Room("measures delay of video", ("camera", "plot", "wire")),
     "ros": Room("messages, frames, parameters", ("base", "bridge", "camera", "endpoints", "transport", "wire"), ros=True),
     "nodes": Room("nodes and nodelets", ("base", "bridge", "camera", "delay", "ros", "transport"), ros=True),
     "demo": Room("crane and test card", ("camera", "nodes", "ros", "wire"), ros=True),
     "rviz": Room("the display", ("camera", "ros"), ros=True),
-    "cli": Room("what programs share", ("base", "endpoints", "transport", "wire")),
+    "cli": Room("shared by programs", ("base", "endpoints", "transport", "wire")),
     "monitor": Room("trk monitor", ("base", "camera", "cli", "transport", "wire")),
     "bag": Room("trk bag", ("base", "bridge", "camera", "cli", "delay", "file", "ros", "transport", "wire"), ros=True),
     "tools": Room("trk", ("base", "bridge", "camera", "cli", "endpoints", "lens", "monitor", "plot", "transport", "wire"), uses_with_ros=("bag",)),
@@ -47,7 +47,7 @@ def used_by(room):
 
 
 def reachable_from(room):
-    """Every room that it uses, through others as well; itself only where there is a cycle."""
+    """Every module that it uses, directly or indirectly; itself only where there is a cycle."""
     seen, ahead = set(), list(used_by(room))
     while ahead:
         used = ahead.pop()
@@ -58,11 +58,11 @@ def reachable_from(room):
 
 
 def floor_of(room):
-    """0 for a room that uses none, else one above the highest that it uses."""
+    """0 for a module that uses none, else one above the highest that it uses."""
     return 1 + max((floor_of(used) for used in used_by(room)), default=-1)
 
 
 def arrows():
-    """(user, used) without those that follow from two others."""
+    """(user, used) without those that other dependencies imply."""
     return [(room, used) for room in ROOMS for used in used_by(room)
             if not any(used in reachable_from(other) for other in used_by(room))]

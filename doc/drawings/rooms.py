@@ -1,4 +1,4 @@
-"""Which room knows which, floor by floor: each names the rooms right below that it uses."""
+"""The modules in layers: each box names the modules of lower layers that it uses directly."""
 
 import textwrap
 
@@ -19,13 +19,13 @@ def rooms():
     widest = max(len(row) for row in floors.values())
     width = 2 * MARGIN + widest * SIZE[0] + (widest - 1) * GAP[0]
     height = 2 * MARGIN + len(floors) * (SIZE[1] + GAP[1]) - GAP[1] + LEGEND
-    picture = Picture(width, height, "The rooms and what they use")
+    picture = Picture(width, height, "The modules and their dependencies")
     for floor, row in floors.items():
         top = MARGIN + (len(floors) - 1 - floor) * (SIZE[1] + GAP[1])
         row_width = len(row) * SIZE[0] + (len(row) - 1) * GAP[0]
         for place, room in enumerate(row):
             _box(picture, room, (width - row_width) / 2 + place * (SIZE[0] + GAP[0]), top)
-    picture.text((MARGIN, height - MARGIN + 8), "dashed: needs ROS; what follows from two others is left out", 12, GREY)
+    picture.text((MARGIN, height - MARGIN + 8), "dashed: needs ROS; indirect dependencies are not shown", 12, GREY)
     return picture
 
 
