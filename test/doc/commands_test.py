@@ -106,6 +106,9 @@ class PageRun:
             unknown = pages.unknown_arguments(command, self._root / "launch")
             if unknown:
                 raise session.CommandError(f"the launch file has no argument {', '.join(unknown)}: {command}")
+        if block.mark.machine:
+            self.terminals.check_syntax(block.text)
+            return
         text = stand_ins.replace_all(block.text, self._table)
         if block.mark.kind == "file":
             (self._folder / block.mark.text).write_text(text)

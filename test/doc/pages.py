@@ -8,6 +8,8 @@ A page shows commands in fences that say `sh`, and marks each with a comment rig
     <!-- run: background -->              one command in a terminal of its own, which lives until the text says Ctrl-C,
                                           and then ends with exit code 0
     <!-- run: background until TEXT -->   the same; what follows waits for TEXT
+    <!-- run on MACHINE -->               as run, with all of the above after a colon, on one of several machines, which
+                                          several_machines_test.py makes; elsewhere the syntax is checked
     <!-- run by: FILE -->                 FILE, a script of the repository, has these commands
     <!-- needs hardware: WHY -->          nobody runs it; its syntax is checked
 
@@ -26,7 +28,8 @@ import xml.etree.ElementTree
 COMMAND_LANGUAGES = ("sh", "bash", "shell", "console")
 
 _FENCE = re.compile(r"^(?P<indent> *)(?P<ticks>`{3,}|~{3,})[ \t]*(?P<language>[^\s`]*)[^`]*$")
-_MARK = re.compile(r"^\s*<!--\s*(?P<verb>run by|run|needs hardware|file|Ctrl-C)\b\s*(?::\s*(?P<text>.*?))?\s*-->\s*$")
+_MARK = re.compile(r"^\s*<!--\s*(?P<verb>run by|run(?: on (?P<machine>\w+))?|needs hardware|file|Ctrl-C)\b\s*"
+                   r"(?::\s*(?P<text>.*?))?\s*-->\s*$")
 _RUN = re.compile(
     r"^(?:(?P<background>background)(?: until (?P<until>.+))?|(?:(?P<fails>fails), )?prints (?P<prints>.+))$")
 _LIST_ITEM = re.compile(r"^ {0,3}(?:[-*+]|\d+[.)])\s")
@@ -48,6 +51,7 @@ class Mark:
     text: str = ""  # until, FILE, WHY or NAME
     prints: str = ""
     fails: bool = False
+    machine: str = ""  # on which it runs; empty: on the reader's own
 
 
 @dataclasses.dataclass(frozen=True)
@@ -78,18 +82,19 @@ def parse_mark(line, number):
         if text not in (None, "after each section"):
             raise PageError(number, f"'Ctrl-C: {text}' is neither here nor after each section")
         return Mark(verb, text or "")
-    if verb != "run":
+    machine = match["machine"] or ""
+    if verb != "run" and not machine:
         if not text:
             raise PageError(number, f"'{verb}' does not say what")
         return Mark(verb, text)
     if text is None:
-        return Mark("run")
+        return Mark("run", machine=machine)
     run = _RUN.match(text)
     if not run:
         raise PageError(number, f"'run: {text}' is none of the ways to run a block")
     if run["background"]:
-        return Mark("background", run["until"] or "")
-    return Mark("run", prints=run["prints"], fails=bool(run["fails"]))
+        return Mark("background", run["until"] or "", machine=machine)
+    return Mark("run", prints=run["prints"], fails=bool(run["fails"]), machine=machine)
 
 
 def _check(block):

@@ -25,12 +25,17 @@ class Marks(unittest.TestCase):
         self.assertEqual(self.mark_of("<!-- run by: scripts/test -->"), Mark("run by", "scripts/test"))
         self.assertEqual(self.mark_of("<!-- needs hardware: a tracker -->"), Mark("needs hardware", "a tracker"))
 
+    def test_on_one_of_several_machines(self):
+        self.assertEqual(self.mark_of("<!-- run on recorder -->"), Mark("run", machine="recorder"))
+        self.assertEqual(self.mark_of("<!-- run on a: prints b -->"), Mark("run", prints="b", machine="a"))
+        self.assertEqual(self.mark_of("<!-- run on a: background until b -->"), Mark("background", "b", machine="a"))
+
     def test_blank_lines_may_stand_between(self):
         self.assertEqual(blocks_of(page("<!-- run -->", "", "```sh", "true", "```"))[0].mark, Mark("run"))
 
     def test_marks_that_say_nothing_are_refused(self):
         for mark in ("<!-- run: -->", "<!-- run: later -->", "<!-- run: background then -->", "<!-- run by -->",
-                     "<!-- needs hardware: -->", "<!-- run: fails -->"):
+                     "<!-- run on a: later -->", "<!-- needs hardware: -->", "<!-- run: fails -->"):
             with self.subTest(mark), self.assertRaisesRegex(PageError, "line 1: "):
                 self.mark_of(mark)
 
