@@ -30,4 +30,12 @@ const std::string& nearest(std::string_view word, const std::vector<std::string>
   });
 }
 
+std::optional<std::string> likely(std::string_view word, const std::vector<std::string>& candidates) {
+  if (candidates.empty()) return std::nullopt;
+  const std::string& best = nearest(word, candidates);
+  const std::size_t edits = edit_distance(word, best);
+  if (edits > 2 || edits >= best.size()) return std::nullopt;
+  return best;
+}
+
 }  // namespace trk_bridge::base

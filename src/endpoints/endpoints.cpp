@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/nearest.h"
 #include "file/scheme.h"
 #include "freed/scheme.h"
 #include "opentrackio/scheme.h"
@@ -31,32 +32,41 @@ using transport::SourceEndpoint;
 using transport::TransportError;
 using transport::Url;
 
-/// Every scheme there is.
-constexpr std::array<const Scheme*, 5> schemes{&trk::udp_scheme, &freed::scheme, &opentrackio::scheme, &shm::scheme,
-                                               &file::scheme};
-
-std::string usages() {
-  std::string text;
-  for (std::size_t i = 0; i < schemes.size(); ++i) {
-    text += i == 0 ? "" : i + 1 == schemes.size() ? " and " : ", ";
-    text += schemes[i]->usage;
-  }
-  return text;
-}
+constexpr std::array<const Scheme*, 5> all_schemes{&trk::udp_scheme, &freed::scheme, &opentrackio::scheme, &shm::scheme,
+                                                   &file::scheme};
 
 struct Parsed {
   Url url;
   const Scheme* scheme;
 };
 
+/// What a text without a known scheme was probably meant to be; empty: nothing comes near.
+std::string meant_by(const std::string& text, const Url& url) {
+  if (transport::whole_number(text, 0, 61)) return "shm:" + text;
+  if (transport::whole_number(text, 1, 65535)) return "udp://:" + text;
+  // A host and a port, the port alone, or an IPv6 address in brackets.
+  const bool has_port = transport::whole_number(url.place, 1, 65535).has_value();
+  if (text.front() == '[' || (has_port && text.find('/') == std::string::npos)) return "udp://" + text;
+  const std::string before = text.substr(0, text.find(':'));
+  if (before.find('/') != std::string::npos || (url.scheme.empty() && text.find('.') != std::string::npos)) {
+    return "file:" + text;
+  }
+  std::vector<std::string> names;
+  for (const Scheme* scheme : all_schemes) names.emplace_back(scheme->name);
+  const auto name = base::likely(url.scheme, names);
+  return name ? *name + text.substr(url.scheme.size()) : "";
+}
+
 tl::expected<Parsed, std::string> parsed(std::string_view text) {
   auto url = transport::split_url(text);
   if (!url) return tl::make_unexpected(url.error());
   const auto scheme =
-      std::find_if(schemes.begin(), schemes.end(), [&](const Scheme* s) { return s->name == url->scheme; });
-  if (scheme == schemes.end()) {
-    const std::string given = url->scheme.empty() ? std::string("no scheme") : "scheme \"" + url->scheme + "\"";
-    return tl::make_unexpected(given + ": allowed are " + usages());
+      std::find_if(all_schemes.begin(), all_schemes.end(), [&](const Scheme* s) { return s->name == url->scheme; });
+  if (scheme == all_schemes.end()) {
+    std::string error = url->scheme.empty() ? std::string("no scheme") : "unknown scheme \"" + url->scheme + "\"";
+    const std::string meant = text.empty() ? "" : meant_by(std::string(text), *url);
+    if (!meant.empty()) error += ", did you mean " + meant + "?";
+    return tl::make_unexpected(error + (meant.empty() ? ": allowed are " : " Allowed are ") + usages());
   }
   return Parsed{*std::move(url), *scheme};
 }
@@ -109,6 +119,14 @@ tl::expected<void, std::string> follow(const Preset& preset, Url& url) {
   return {};
 }
 
+/// The error of a value that an option of every sink does not allow.
+tl::unexpected<std::string> not_allowed(std::string_view key, const std::string& value) {
+  const auto option = std::find_if(transport::form_options.begin(), transport::form_options.end(),
+                                   [key](const auto& known) { return known.key == key; });
+  return tl::make_unexpected("option " + std::string(key) + " = \"" + value + "\": allowed are " +
+                             std::string(option->allowed));
+}
+
 /// Takes the options of every sink out of the URL.
 tl::expected<SinkForm, std::string> extract_form(Url& url) {
   const auto extract = [&url](std::string_view key) -> std::optional<std::string> {
@@ -141,24 +159,14 @@ tl::expected<SinkForm, std::string> extract_form(Url& url) {
   if (id) {
     constexpr std::uint32_t largest = std::numeric_limits<std::uint32_t>::max();
     form.id = transport::whole_number<std::uint32_t>(*id, 0, largest);
-    if (!form.id) {
-      return tl::make_unexpected("option id = \"" + *id + "\": allowed are whole numbers from 0 to " +
-                                 std::to_string(largest));
-    }
+    if (!form.id) return not_allowed("id", *id);
     if (!form.sends_id && *form.id != 0) {
       return tl::make_unexpected("option id = \"" + *id + "\": the preset " + *preset_name +
                                  " sends no id; only 0 is allowed");
     }
   }
-  if (delay && !(form.delay = delay_from(*delay))) {
-    return tl::make_unexpected(
-        "option delay = \"" + *delay +
-        "\": allowed are 0 to 1 seconds, or three such numbers with commas between: of position, "
-        "rotation and lens");
-  }
-  if (lead && !(form.lead = nanoseconds_from(*lead, transport::most_lead))) {
-    return tl::make_unexpected("option lead = \"" + *lead + "\": allowed are 0 to 0.04 seconds");
-  }
+  if (delay && !(form.delay = delay_from(*delay))) return not_allowed("delay", *delay);
+  if (lead && !(form.lead = nanoseconds_from(*lead, transport::most_lead))) return not_allowed("lead", *lead);
   return form;
 }
 
@@ -196,7 +204,21 @@ tl::expected<SourceEndpoint, std::string> source_endpoint(std::string_view text)
 
 }  // namespace
 
-std::vector<const Scheme*> all_schemes() { return {schemes.begin(), schemes.end()}; }
+const std::array<const Scheme*, 5>& schemes() { return all_schemes; }
+
+std::string prefix_of(const Scheme& scheme) {
+  const bool has_host = scheme.usage.find("://") != std::string_view::npos;
+  return std::string(scheme.name) + (has_host ? "://" : ":");
+}
+
+std::string usages() {
+  std::string text;
+  for (std::size_t i = 0; i < all_schemes.size(); ++i) {
+    text += i == 0 ? "" : i + 1 == all_schemes.size() ? " and " : ", ";
+    text += all_schemes[i]->usage;
+  }
+  return text;
+}
 
 tl::expected<SourceEndpoint, std::string> parse_source(std::string_view url) {
   return located(url, source_endpoint(url));

@@ -16,42 +16,47 @@ using transport::Option;
 using transport::real_number;
 
 constexpr std::array<Option<SourceSettings>, 6> source_options{{
-    {"rate", "fields a second from 0.001 to 100000",
+    {"rate", "fields a second from 0.001 to 100000", "Rate of the take (50, or the program's own field rate)",
      [](const std::string& v, SourceSettings& s) { return assign(real_number(v, 1e-3, 1e5), s.rate); }},
-    {"speed", "0 (as fast as possible) and a factor from 0.001 to 1000",
+    {"speed", "0 (as fast as possible) and a factor from 0.001 to 1000", "Playback speed (1)",
      [](const std::string& v, SourceSettings& s) {
        return assign(real_number(v, 0.0, 1e3), s.speed) && (s.speed == 0.0 || s.speed >= 1e-3);
      }},
-    {"loop", transport::switch_allowed,
+    {"loop", transport::switch_allowed, "1: play it over and over",
      [](const std::string& v, SourceSettings& s) { return assign_switch(v, s.loop); }},
-    {"time", "timecode and now",
+    {"time", "timecode and now", "What samples are stamped with: the take's own time code, or the present (timecode)",
      [](const std::string& v, SourceSettings& s) {
        s.time = v == "now" ? FileTime::now : FileTime::timecode;
        return v == "now" || v == "timecode";
      }},
-    {"date", "a day from 1970-01-01 to 2249-12-31 as YYYY-MM-DD",
+    {"date", "a day from 1970-01-01 to 2249-12-31 as YYYY-MM-DD", "Day of the time code, UTC (today)",
      [](const std::string& v, SourceSettings& s) {
        s.date = base::day_from_text(v);
        return s.date && *s.date <= latest_date;
      }},
-    {"lenient", transport::switch_allowed,
+    {"lenient", transport::switch_allowed, "1: leave out malformed lines, each alone (the first one ends the take)",
      [](const std::string& v, SourceSettings& s) { return assign_switch(v, s.lenient); }},
 }};
 
 constexpr std::array<Option<SinkSettings>, 4> sink_options{{
     {"timecode", "HH:MM:SS:FF:D, D being 1 or 2 (drop-frame: HH:MM:SS;FF:D)",
+     "Time code of the first field (its own if it has one, else its time of day, UTC)",
      [](const std::string& v, SinkSettings& s) {
        const auto code = base::parse_time_code(v);
        if (code) s.time_code = *code;
        return code.has_value();
      }},
-    {"rate", "fields a second from 1 to 200, which the time code counts",
+    {"rate", "fields a second from 1 to 200, which the time code counts", "Rate of the default time code (50)",
      [](const std::string& v, SinkSettings& s) { return assign(real_number(v, 1, 200), s.rate); }},
-    {"number", transport::switch_allowed,
+    {"number", transport::switch_allowed, "1: add the next free number to the name",
      [](const std::string& v, SinkSettings& s) { return assign_switch(v, s.number); }},
-    {"overwrite", transport::switch_allowed,
+    {"overwrite", transport::switch_allowed, "1: replace a take that exists",
      [](const std::string& v, SinkSettings& s) { return assign_switch(v, s.overwrite); }},
 }};
+
+std::vector<transport::OptionHelp> options(Direction direction) {
+  return direction == Direction::read ? transport::help_of(source_options) : transport::help_of(sink_options);
+}
 
 /// Without decoding.
 tl::expected<std::string_view, std::string> path_of(const transport::Url& url) {
@@ -69,7 +74,7 @@ tl::expected<std::string_view, std::string> path_of(const transport::Url& url) {
 /// `read_path` makes of the path what the settings have.
 template <typename Settings, typename ReadPath, typename Table, typename OtherTable>
 tl::expected<Settings, std::string> settings_of(const transport::Url& url, Direction direction,
-                                                const ReadPath& read_path, const Table& options,
+                                                const ReadPath& read_path, const Table& own,
                                                 const OtherTable& other_way) {
   const auto place = path_of(url);
   if (!place) return tl::make_unexpected(place.error());
@@ -77,7 +82,7 @@ tl::expected<Settings, std::string> settings_of(const transport::Url& url, Direc
   if (!path) return tl::make_unexpected("path = " + path.error());
   Settings settings;
   settings.path = *std::move(path);
-  const auto set = transport::set_options(url, direction, settings, transport::keys_of(other_way), options);
+  const auto set = transport::set_options(url, direction, settings, transport::keys_of(other_way), own);
   if (!set) return tl::make_unexpected(set.error());
   return settings;
 }
@@ -97,7 +102,10 @@ tl::expected<SinkSettings, std::string> sink_settings(const transport::Url& url)
   return settings;
 }
 
-const transport::Scheme scheme{"file", "file:PATH",
+const transport::Scheme scheme{"file",
+                               "file:PATH",
+                               "Takes: trk as text, a line a video field",
+                               options,
                                [](const transport::Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
                                  auto settings = source_settings(url);
                                  if (!settings) return tl::make_unexpected(settings.error());

@@ -14,6 +14,9 @@ using transport::Option;
 
 constexpr std::string_view no_table = "none";
 
+constexpr std::string_view profile_help = "What zoom, focus and spare mean";
+constexpr std::string_view lens_help = "Lens table: makes a lens of the counts of encoders, and back";
+
 template <typename Settings>
 bool assign_profile(const std::string& value, Settings& settings) {
   return transport::assign(profile_of(value), settings.profile);
@@ -26,9 +29,9 @@ bool assign_lens(const std::string& value, Settings& settings) {
 }
 
 constexpr std::array<Option<SourceSettings>, 3> source_options{{
-    {"profile", profiles_allowed, assign_profile<SourceSettings>},
-    {"lens", "the path of a lens table and none", assign_lens<SourceSettings>},
-    {"checksum", "strict and lenient",
+    {"profile", profiles_allowed, profile_help, assign_profile<SourceSettings>},
+    {"lens", "the path of a lens table and none", lens_help, assign_lens<SourceSettings>},
+    {"checksum", "strict and lenient", "lenient: a wrong checksum is a warning (strict)",
      [](const std::string& v, SourceSettings& s) {
        s.lenient = v == "lenient";
        return s.lenient || v == "strict";
@@ -36,11 +39,16 @@ constexpr std::array<Option<SourceSettings>, 3> source_options{{
 }};
 
 constexpr std::array<Option<SinkSettings>, 3> sink_options{{
-    {"profile", profiles_allowed, assign_profile<SinkSettings>},
-    {"lens", "the path of a lens table and none", assign_lens<SinkSettings>},
-    {"unwrap", transport::switch_allowed,
+    {"profile", profiles_allowed, profile_help, assign_profile<SinkSettings>},
+    {"lens", "the path of a lens table and none", lens_help, assign_lens<SinkSettings>},
+    {"unwrap", transport::switch_allowed, "0: pan stays within 180 degrees (1)",
      [](const std::string& v, SinkSettings& s) { return transport::assign_switch(v, s.unwrap); }},
 }};
+
+std::vector<transport::OptionHelp> options(Direction direction) {
+  return direction == Direction::read ? transport::help_of(transport::receive_options, source_options)
+                                      : transport::help_of(transport::send_options, sink_options);
+}
 
 /// Loads the table that `settings.lens` names.
 template <typename Settings>
@@ -75,9 +83,8 @@ const transport::Detection detection{"Free-D", claims,
 tl::expected<SourceSettings, std::string> source_settings(const transport::Url& url) {
   SourceSettings settings;
   if (const auto place = transport::set_place(url, settings); !place) return tl::make_unexpected(place.error());
-  const auto set =
-      transport::set_options(url, Direction::read, settings, transport::keys_of(transport::send_options, sink_options),
-                             transport::receive_options, source_options);
+  const auto set = transport::set_options(url, Direction::read, settings, transport::keys_of(options(Direction::write)),
+                                          transport::receive_options, source_options);
   if (!set) return tl::make_unexpected(set.error());
   return with_table(std::move(settings));
 }
@@ -85,13 +92,12 @@ tl::expected<SourceSettings, std::string> source_settings(const transport::Url& 
 tl::expected<SinkSettings, std::string> sink_settings(const transport::Url& url) {
   SinkSettings settings;
   if (const auto place = transport::set_place(url, settings); !place) return tl::make_unexpected(place.error());
-  const auto set = transport::set_options(url, Direction::write, settings,
-                                          transport::keys_of(transport::receive_options, source_options),
-                                          transport::send_options, sink_options);
-  if (!set) return tl::make_unexpected(set.error());
   const bool has_period = std::any_of(url.options.begin(), url.options.end(),
                                       [](const auto& option) { return option.key == "constants_period"; });
   if (has_period) return tl::make_unexpected(std::string("option constants_period: Free-D has no constants to repeat"));
+  const auto set = transport::set_options(url, Direction::write, settings, transport::keys_of(options(Direction::read)),
+                                          transport::send_options, sink_options);
+  if (!set) return tl::make_unexpected(set.error());
   settings.constants_period = 0;
   if (settings.lens.empty() && !tells_lens(settings.profile)) {
     return tl::make_unexpected(
@@ -101,7 +107,10 @@ tl::expected<SinkSettings, std::string> sink_settings(const transport::Url& url)
   return with_table(std::move(settings));
 }
 
-const transport::Scheme scheme{"freed", "freed://HOST:PORT",
+const transport::Scheme scheme{"freed",
+                               "freed://HOST:PORT",
+                               "Free-D (type D1) in UDP datagrams",
+                               options,
                                [](const transport::Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
                                  auto settings = source_settings(url);
                                  if (!settings) return tl::make_unexpected(settings.error());

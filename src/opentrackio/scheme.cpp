@@ -74,32 +74,41 @@ bool assign_uuid(const std::string& value, std::string& to) {
 
 constexpr std::array<Option<SourceSettings>, 2> source_options{{
     {"source", "a source number from 1 to 200, and any",
+     "Join the groups of this source, in place of a host; any: accept samples without a valid source number",
      [](const std::string& v, SourceSettings& s) {
        s.takes_any = v == "any";
        return s.takes_any || assign_source(v, s.source);
      }},
-    {"tai_offset", offset_allowed,
+    {"tai_offset", offset_allowed, "TAI less UTC, of the sender's clock (37)",
      [](const std::string& v, SourceSettings& s) { return assign_offset(v, s.tai_offset); }},
 }};
 
 constexpr std::array<Option<SinkSettings>, 7> sink_options{{
     {"source", "a source number from 1 to 200",
+     "Source number in the packets; its group is sent to where the URL has no host",
      [](const std::string& v, SinkSettings& s) { return assign_source(v, s.writer.source); }},
-    {"encoding", "json and cbor",
+    {"encoding", "json and cbor", "Encoding of the samples (json)",
      [](const std::string& v, SinkSettings& s) { return assign_word(v, encodings, s.encoding); }},
-    {"profile", "generic and unreal",
+    {"profile", "generic and unreal", "What the receiver expects (generic)",
      [](const std::string& v, SinkSettings& s) { return assign_word(v, profiles, s.writer.profile); }},
-    {"distortion", "D-U and U-D",
+    {"distortion", "D-U and U-D", "Lens model: distorted to undistorted, or the other way",
      [](const std::string& v, SinkSettings& s) { return assign_word(v, models, s.writer.model); }},
-    {"rate", "samples a second from 1 to 1000",
+    {"rate", "samples a second from 1 to 1000", "Sample rate that is sent along",
      [](const std::string& v, SinkSettings& s) {
        return transport::assign(transport::real_number(v, 1, 1000), s.writer.rate);
      }},
-    {"tai_offset", offset_allowed,
+    {"tai_offset", offset_allowed, "TAI less UTC, of the times that are sent (37)",
      [](const std::string& v, SinkSettings& s) { return assign_offset(v, s.writer.tai_offset); }},
     {"source_id", "UUIDs of lower-case digits, as in 5e1f0a6c-0000-8000-8000-000000000001",
+     "Identity of the source (made from this machine's name and the target)",
      [](const std::string& v, SinkSettings& s) { return assign_uuid(v, s.source_id); }},
 }};
+
+std::vector<transport::OptionHelp> options(Direction direction) {
+  return direction == Direction::read
+             ? transport::help_of(transport::receive_options, source_options)
+             : transport::help_of(transport::send_options, transport::repeat_options, sink_options);
+}
 
 bool has_no_host(const Url& url) { return url.place == "//" || url.place.compare(0, 3, "//:") == 0; }
 
@@ -149,9 +158,8 @@ tl::expected<SourceSettings, std::string> source_settings(const Url& url) {
   if (const auto place = transport::set_place(url, settings, standard_port); !place) {
     return tl::make_unexpected(place.error());
   }
-  const auto set =
-      transport::set_options(url, Direction::read, settings, transport::keys_of(transport::send_options, sink_options),
-                             transport::receive_options, source_options);
+  const auto set = transport::set_options(url, Direction::read, settings, transport::keys_of(options(Direction::write)),
+                                          transport::receive_options, source_options);
   if (!set) return tl::make_unexpected(set.error());
   if (settings.source != 0 && !settings.host.empty()) {
     return tl::make_unexpected("option source = \"" + std::to_string(settings.source) +
@@ -179,9 +187,8 @@ tl::expected<SinkSettings, std::string> sink_settings(const Url& url) {
   if (const auto place = transport::set_place(with_host, settings, standard_port); !place) {
     return tl::make_unexpected(place.error() + (has_no_host(url) ? ", or source=N for its group" : ""));
   }
-  const auto set = transport::set_options(url, Direction::write, settings,
-                                          transport::keys_of(transport::receive_options, source_options),
-                                          transport::send_options, sink_options);
+  const auto set = transport::set_options(url, Direction::write, settings, transport::keys_of(options(Direction::read)),
+                                          transport::send_options, transport::repeat_options, sink_options);
   if (!set) return tl::make_unexpected(set.error());
   if (has_no_host(url)) settings.host = group_of(groups.front(), settings.writer.source);
   if (settings.writer.source == 0) settings.writer.source = source_of(settings.host);
@@ -190,7 +197,10 @@ tl::expected<SinkSettings, std::string> sink_settings(const Url& url) {
 }
 
 const transport::Scheme scheme{
-    "opentrackio", "opentrackio://HOST:PORT",
+    "opentrackio",
+    "opentrackio://HOST:PORT",
+    "OpenTrackIO of SMPTE, in UDP datagrams",
+    options,
     [](const Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
       const auto settings = source_settings(url);
       if (!settings) return tl::make_unexpected(settings.error());

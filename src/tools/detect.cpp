@@ -67,7 +67,7 @@ transport::Fault unknown_protocol() noexcept {
 class AnyDecoder final : public transport::Decoder {
  public:
   AnyDecoder() {
-    for (const Scheme* scheme : endpoints::all_schemes()) {
+    for (const Scheme* scheme : endpoints::schemes()) {
       if (scheme->detection == nullptr) continue;
       for (auto& way : scheme->detection->readings()) readings_.push_back({scheme, std::move(way), {}, {}});
     }
@@ -286,7 +286,7 @@ Place place_from(const std::string& text) {
 
 std::vector<transport::UsualPlace> usual_places() {
   std::vector<transport::UsualPlace> all;
-  for (const Scheme* scheme : endpoints::all_schemes()) {
+  for (const Scheme* scheme : endpoints::schemes()) {
     if (scheme->detection == nullptr) continue;
     for (auto& place : scheme->detection->places()) all.push_back(std::move(place));
   }
@@ -421,7 +421,7 @@ cli::ExitCode detect(const DetectOptions& options, std::ostream& out, std::ostre
 }
 
 void list_usual_places(std::ostream& out) {
-  for (const Scheme* scheme : endpoints::all_schemes()) {
+  for (const Scheme* scheme : endpoints::schemes()) {
     if (scheme->detection == nullptr) continue;
     // Groups that are numbered are a line: the first and the last.
     std::map<std::string_view, std::vector<transport::UsualPlace>> by_senders;

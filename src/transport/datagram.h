@@ -83,7 +83,9 @@ struct SendSettings {
 std::unique_ptr<Sink> open_datagram_sink(const SendSettings&, std::unique_ptr<Encoder>);
 
 extern const std::array<Option<ReceiveSettings>, 3> receive_options;
-extern const std::array<Option<SendSettings>, 3> send_options;
+extern const std::array<Option<SendSettings>, 2> send_options;
+/// Where a protocol has constants to repeat.
+extern const std::array<Option<SendSettings>, 1> repeat_options;
 
 /// Where senders of a protocol are often set to send.
 struct UsualPlace {

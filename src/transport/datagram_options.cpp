@@ -103,20 +103,23 @@ tl::expected<void, std::string> read_place(const Url& url, Direction direction,
 }  // namespace
 
 const std::array<Option<ReceiveSettings>, 3> receive_options{{
-    {"allow", "addresses with a comma between",
+    {"allow", "addresses with a comma between", "Accept only these senders",
      [](const std::string& v, ReceiveSettings& s) { return assign_hosts(v, s.allow); }},
-    {"interface", interface_allowed,
+    {"interface", interface_allowed, "Join multicast groups there",
      [](const std::string& v, ReceiveSettings& s) { return assign_interface(v, s.interface); }},
-    {"buffer", "bytes from 1 to 1073741823",
+    {"buffer", "bytes from 1 to 1073741823", "Receive buffer of the kernel (8388608, or what it grants of that)",
      [](const std::string& v, ReceiveSettings& s) { return assign(whole_number(v, 1, 1073741823), s.buffer); }},
 }};
 
-const std::array<Option<SendSettings>, 3> send_options{{
-    {"interface", interface_allowed,
+const std::array<Option<SendSettings>, 2> send_options{{
+    {"interface", interface_allowed, "Send to multicast groups from there",
      [](const std::string& v, SendSettings& s) { return assign_interface(v, s.interface); }},
-    {"ttl", "a whole number from 0 to 255",
+    {"ttl", "a whole number from 0 to 255", "Pass at most one router less than this",
      [](const std::string& v, SendSettings& s) { return assign(whole_number(v, 0, 255), s.ttl); }},
-    {"constants_period", "seconds from 0 to 86400",
+}};
+
+const std::array<Option<SendSettings>, 1> repeat_options{{
+    {"constants_period", "seconds from 0 to 86400", "Repeat constants after this time (1); 0: only when they change",
      [](const std::string& v, SendSettings& s) { return assign(real_number(v, 0.0, 86400.0), s.constants_period); }},
 }};
 

@@ -6,8 +6,6 @@
 namespace trk_bridge::transport {
 namespace {
 
-const char* word(Direction direction) { return direction == Direction::read ? "reading" : "writing"; }
-
 std::string joined(const std::vector<std::string_view>& keys) {
   std::string text;
   for (const auto key : keys) text += (text.empty() ? "" : ", ") + std::string(key);
@@ -15,6 +13,8 @@ std::string joined(const std::vector<std::string_view>& keys) {
 }
 
 }  // namespace
+
+const char* word(Direction direction) noexcept { return direction == Direction::read ? "reading" : "writing"; }
 
 tl::expected<std::string, std::string> percent_decoded(std::string_view text) {
   std::string decoded;
@@ -81,6 +81,7 @@ std::string udp_url(const std::string& host, std::uint16_t port) {
 std::string unknown_option(const std::string& key, std::string_view scheme, Direction direction,
                            const std::vector<std::string_view>& known, const std::vector<std::string_view>& other_way) {
   const auto in = [&key](const auto& keys) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
+  const auto form_keys = keys_of(form_options);
   auto all = known;
   if (direction == Direction::write) all.insert(all.end(), form_keys.begin(), form_keys.end());
   const std::string allowed = std::string(": ") + word(direction) + " " + std::string(scheme) + " knows " + joined(all);

@@ -40,14 +40,26 @@ std::string udp_url(const std::string& host, std::uint16_t port);
 
 /// Which way the bytes go: options differ.
 enum class Direction : std::uint8_t { read, write };
+/// "reading", "writing"
+const char* word(Direction) noexcept;
 
 struct Detection;
 
-/// What a folder of its own gives to the table (endpoints/endpoints.cpp). Errors name the part, its value and what is
+/// One option as people read it.
+struct OptionHelp {
+  std::string_view key;
+  std::string_view allowed;
+  std::string_view help;  ///< what it does, and its default
+};
+
+/// What a folder of its own gives to the table (endpoints/schemes.h). Errors name the part, its value and what is
 /// allowed.
 struct Scheme {
-  std::string_view name;   ///< "udp"
-  std::string_view usage;  ///< "udp://HOST:PORT"
+  std::string_view name;     ///< "udp"
+  std::string_view usage;    ///< "udp://HOST:PORT"
+  std::string_view summary;  ///< "trk in UDP datagrams"
+  /// Without those of every sink.
+  std::vector<OptionHelp> (*options)(Direction);
   /// `url` and, for sinks, `form` are the table's to fill in.
   tl::expected<SourceEndpoint, std::string> (*source)(const Url&);
   tl::expected<SinkEndpoint, std::string> (*sink)(const Url&);
@@ -55,13 +67,21 @@ struct Scheme {
 };
 
 /// The options of every sink, whatever its scheme: they are read by the table, not by schemes.
-inline constexpr std::array<std::string_view, 5> form_keys{"format", "preset", "id", "delay", "lead"};
+inline constexpr std::array<OptionHelp, 5> form_options{{
+    {"format", "words of the protocol with commas between, as in euler,field_of_view", "Format of what is sent"},
+    {"preset", "a name that trk presets lists", "Format of that receiver, in place of format"},
+    {"id", "whole numbers from 0 to 4294967295", "Camera number in place of the one that came"},
+    {"delay", "0 to 1 seconds, or three such numbers with commas between: of position, rotation and lens",
+     "Send the camera as it was this long ago (0)"},
+    {"lead", "0 to 0.04 seconds", "Extrapolate the camera at most so far beyond its newest sample (0)"},
+}};
 
 /// One option of a scheme in one direction. `set` is false when the value is not one of the `allowed`.
 template <typename Settings>
 struct Option {
   std::string_view key;
   std::string_view allowed;
+  std::string_view help;  ///< see OptionHelp
   bool (*set)(const std::string& value, Settings& settings);
 };
 
@@ -78,6 +98,17 @@ std::vector<std::string_view> keys_of(const Tables&... tables) {
   };
   (add(tables), ...);
   return keys;
+}
+
+/// The options of tables as people read them.
+template <typename... Tables>
+std::vector<OptionHelp> help_of(const Tables&... tables) {
+  std::vector<OptionHelp> all;
+  const auto add = [&all](const auto& table) {
+    for (const auto& option : table) all.push_back({option.key, option.allowed, option.help});
+  };
+  (add(tables), ...);
+  return all;
 }
 
 /// Sets every option of the URL in `settings`, which each of the tables is for. `other_way` are the keys of the other

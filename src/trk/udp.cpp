@@ -18,16 +18,22 @@ using transport::Option;
 constexpr wire::Layout default_layout{wire::Generation::identified, wire::Abi::lp64, wire::ByteOrder::little};
 
 constexpr std::array<Option<UdpSourceSettings>, 1> source_options{{
-    {"layout", transport::layout_allowed,
+    {"layout", transport::layout_allowed, "Layout of binary records (auto: detected for each sender)",
      [](const std::string& v, UdpSourceSettings& s) { return transport::assign_layout(v, s.layout); }},
 }};
 
 constexpr std::array<Option<UdpSinkSettings>, 2> sink_options{{
-    {"layout", transport::layout_allowed,
+    {"layout", transport::layout_allowed, "Layout of binary records (identified_lp64_le)",
      [](const std::string& v, UdpSinkSettings& s) { return transport::assign_layout(v, s.layout); }},
-    {"binary", transport::switch_allowed,
+    {"binary", transport::switch_allowed, "1: binary records in place of ASCII",
      [](const std::string& v, UdpSinkSettings& s) { return transport::assign_switch(v, s.binary); }},
 }};
+
+std::vector<transport::OptionHelp> options(Direction direction) {
+  return direction == Direction::read
+             ? transport::help_of(transport::receive_options, source_options)
+             : transport::help_of(transport::send_options, transport::repeat_options, sink_options);
+}
 
 const transport::Detection detection{"trk", claims,
                                      [] {
@@ -48,9 +54,8 @@ const transport::Detection detection{"trk", claims,
 tl::expected<UdpSourceSettings, std::string> udp_source_settings(const transport::Url& url) {
   UdpSourceSettings settings;
   if (const auto place = transport::set_place(url, settings); !place) return tl::make_unexpected(place.error());
-  const auto set =
-      transport::set_options(url, Direction::read, settings, transport::keys_of(transport::send_options, sink_options),
-                             transport::receive_options, source_options);
+  const auto set = transport::set_options(url, Direction::read, settings, transport::keys_of(options(Direction::write)),
+                                          transport::receive_options, source_options);
   if (!set) return tl::make_unexpected(set.error());
   return settings;
 }
@@ -58,9 +63,8 @@ tl::expected<UdpSourceSettings, std::string> udp_source_settings(const transport
 tl::expected<UdpSinkSettings, std::string> udp_sink_settings(const transport::Url& url) {
   UdpSinkSettings settings;
   if (const auto place = transport::set_place(url, settings); !place) return tl::make_unexpected(place.error());
-  const auto set = transport::set_options(url, Direction::write, settings,
-                                          transport::keys_of(transport::receive_options, source_options),
-                                          transport::send_options, sink_options);
+  const auto set = transport::set_options(url, Direction::write, settings, transport::keys_of(options(Direction::read)),
+                                          transport::send_options, transport::repeat_options, sink_options);
   if (!set) return tl::make_unexpected(set.error());
   if (settings.layout.generation.has_value() && !settings.binary) {
     return tl::make_unexpected(std::string("option layout counts for binary records only: give binary=1, too"));
@@ -79,7 +83,10 @@ std::unique_ptr<transport::Sink> open_udp_sink(const UdpSinkSettings& settings) 
 }
 
 const transport::Scheme udp_scheme{
-    "udp", "udp://HOST:PORT",
+    "udp",
+    "udp://HOST:PORT",
+    "trk in UDP datagrams: unicast, broadcast or multicast",
+    options,
     [](const transport::Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
       auto settings = udp_source_settings(url);
       if (!settings) return tl::make_unexpected(settings.error());

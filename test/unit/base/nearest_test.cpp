@@ -21,5 +21,16 @@ TEST(Nearest, OfSeveralAtOneDistanceItIsTheFirst) {
   EXPECT_EQ(nearest("cat", {"bat", "hat"}), "bat");
 }
 
+TEST(Likely, IsTheNearestWhereItIsNear) {
+  const std::vector<std::string> words{"udp", "freed", "dump", "monitor"};
+  EXPECT_EQ(likely("upd", words), "udp");
+  EXPECT_EQ(likely("dumb", words), "dump");
+  EXPECT_EQ(likely("moniter", words), "monitor");
+  EXPECT_EQ(likely("carrier_pigeon", words), std::nullopt);
+  EXPECT_EQ(likely("", words), std::nullopt);
+  EXPECT_EQ(likely("ab", {"cd"}), std::nullopt) << "all of it would be wrong";
+  EXPECT_EQ(likely("udp", {}), std::nullopt);
+}
+
 }  // namespace
 }  // namespace trk_bridge::base

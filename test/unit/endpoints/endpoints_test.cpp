@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "endpoints/schemes.h"
 #include "trk_bridge/wire/format.h"
 #include "url_errors.h"
 
@@ -14,6 +15,47 @@ using test::write_error;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+
+TEST(Endpoints, WhatWasProbablyMeantIsNamed) {
+  EXPECT_THAT(read_error("/takes/crane.trk"), HasSubstr("did you mean file:/takes/crane.trk?"));
+  EXPECT_THAT(read_error("crane.trk?loop=1"), HasSubstr("did you mean file:crane.trk?loop=1?"));
+  EXPECT_THAT(write_error("takes/a:b.trk"), HasSubstr("did you mean file:takes/a:b.trk?"));
+  EXPECT_THAT(read_error("7"), HasSubstr("did you mean shm:7?"));
+  EXPECT_THAT(read_error("7000"), HasSubstr("did you mean udp://:7000?"));
+  EXPECT_THAT(read_error(":7000"), HasSubstr("did you mean udp://:7000?"));
+  EXPECT_THAT(write_error("192.0.2.7:7000"), HasSubstr("did you mean udp://192.0.2.7:7000?"));
+  EXPECT_THAT(write_error("[::1]:7000"), HasSubstr("did you mean udp://[::1]:7000?"));
+  EXPECT_THAT(read_error("upd://:7000"), HasSubstr("did you mean udp://:7000?"));
+  EXPECT_THAT(read_error("carrier_pigeon://coop:7000"),
+              AllOf(Not(HasSubstr("did you mean")), HasSubstr("allowed are udp://HOST:PORT, ")));
+}
+
+/// A place of that scheme.
+std::string place_of(const transport::Scheme& scheme) {
+  if (scheme.name == "shm") return "shm:7";
+  if (scheme.name == "file") return "file:take.trk";
+  return prefix_of(scheme) + "127.0.0.1:7000";
+}
+
+TEST(Endpoints, HelpNamesTheOptionsThatAreRead) {
+  for (const auto* scheme : schemes()) {
+    for (const auto direction : {transport::Direction::read, transport::Direction::write}) {
+      const bool reads = direction == transport::Direction::read;
+      for (const auto& option : scheme->options(direction)) {
+        const std::string url = place_of(*scheme) + '?' + std::string(option.key) + "=%01";
+        const std::string error = reads ? read_error(url) : write_error(url);
+        EXPECT_THAT(error, Not(HasSubstr("unknown option"))) << url;
+        EXPECT_FALSE(option.help.empty()) << url;
+        // Any text may name a file, a host or an interface.
+        if (option.key == "lens" || option.key == "allow" || option.key == "interface") continue;
+        EXPECT_THAT(error, HasSubstr("allowed are " + std::string(option.allowed))) << url;
+      }
+      const std::string unknown = place_of(*scheme) + "?colour=red";
+      const std::string error = reads ? read_error(unknown) : write_error(unknown);
+      for (const auto& option : scheme->options(direction)) EXPECT_THAT(error, HasSubstr(std::string(option.key)));
+    }
+  }
+}
 
 TEST(Endpoints, AnUnknownOptionListsTheKnownOfTheDirection) {
   EXPECT_THAT(
