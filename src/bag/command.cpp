@@ -1,7 +1,9 @@
 #include "command.h"
 
+#include <cstdint>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <string_view>
 
 #include <unistd.h>
@@ -50,7 +52,7 @@ Command::Command(CLI::App& app) : command_(app.add_subcommand("bag", "Make a bag
   command_
       ->add_option("--field-rate", field_rate_,
                    "Video fields a second (to a bag: 50; to a take: as trk bag recorded it, else 50)")
-      ->check(CLI::Range(ros1::field_rate_range.least, ros1::field_rate_range.most))
+      ->check(cli::number(ros1::field_rate_range.least, ros1::field_rate_range.most))
       ->type_name("HZ");
   command_
       ->add_option("--format", format_,
@@ -80,13 +82,14 @@ void Command::add_options_to_bag() {
 void Command::add_options_to_take() {
   auto* input = command_->add_option("--input", input_, "params, or tf and camera_info (default: params if there are)")
                     ->check(CLI::IsMember({"params", "tf"}));
-  auto* id =
-      command_->add_option("--id", to_take_options_.id, "Camera number in place of the one in the bag")->type_name("N");
+  auto* id = command_->add_option("--id", to_take_options_.id, "Camera number in place of the one in the bag")
+                 ->check(cli::whole_number(0, std::numeric_limits<std::uint32_t>::max()))
+                 ->type_name("N");
   auto* width = command_->add_option("--chip-width", to_take_options_.chip_width, "For a bag without constants")
-                    ->check(CLI::PositiveNumber)
+                    ->check(cli::positive_number())
                     ->type_name("MM");
   auto* height = command_->add_option("--chip-height", to_take_options_.chip_height, "For a bag without constants")
-                     ->check(CLI::PositiveNumber)
+                     ->check(cli::positive_number())
                      ->type_name("MM");
   auto* optical = command_->add_flag("--camera-frame-is-optical", to_take_options_.camera_frame_is_optical,
                                      "The axes of --camera-frame are optical ones");

@@ -142,10 +142,10 @@ DelayCommand::DelayCommand(CLI::App& app)
   command_->add_option("--image", options_.image, "Its video (default: NAME/image_raw, or the only one)")
       ->type_name("TOPIC");
   command_->add_option("--field-rate", field_rate_, "Fields a second (default: the rate of params)")
-      ->check(CLI::Range(ros1::field_rate_range.least, ros1::field_rate_range.most))
+      ->check(cli::number(ros1::field_rate_range.least, ros1::field_rate_range.most))
       ->type_name("HZ");
   command_->add_option("--most", options_.most_delay, "Delays up to S seconds are tried (default: 0.5)")
-      ->check(CLI::Range(delay::least_most_delay, delay::most_most_delay))
+      ->check(cli::number(delay::least_most_delay, delay::most_most_delay))
       ->type_name("S");
   command_->add_option("--plot", plot_, "Draw the motion of both, and the correlation")
       ->check(cli::is_svg)

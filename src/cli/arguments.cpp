@@ -1,14 +1,108 @@
 #include "arguments.h"
 
+#include <algorithm>
 #include <exception>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
+#include "base/nearest.h"
 #include "base/process.h"
+#include "endpoints/schemes.h"
+#include "number_text.h"
+#include "option_text.h"
+#include "transport/scheme.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::cli {
+namespace {
+
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
+/// The subcommand that the arguments have come to, else the program itself.
+const CLI::App& asked_for(const CLI::App& app) {
+  const auto parsed = app.get_subcommands();
+  return parsed.empty() ? app : *parsed.front();
+}
+
+bool is_command(const CLI::App& app, const std::string& name) {
+  return !app.get_subcommands([&name](const CLI::App* command) { return command->get_name() == name; }).empty();
+}
+
+/// Throws where the first argument should be a subcommand and is none: CLI11 would only say that it did not expect it.
+void check_command(const CLI::App& app, int argc, const char* const* argv) {
+  std::vector<std::string> names;
+  std::string all;
+  for (const auto* command : visible_commands(app)) {
+    names.push_back(command->get_name());
+    all += (all.empty() ? "" : ", ") + names.back();
+  }
+  if (names.empty()) return;
+  if (argc < 2) throw CLI::ValidationError("no command is given; commands are " + all);
+  const std::string given = argv[1];
+  if (given.empty() || given[0] == '-' || is_command(app, given)) return;
+  const auto meant = base::likely(given, names);
+  throw CLI::ValidationError("unknown command " + quoted(given) +
+                             (meant ? ", did you mean " + *meant + '?' : "; commands are " + all));
+}
+
+/// What was not expected, and the option that it was probably meant to be.
+std::string extras_error(const CLI::App& app) {
+  const CLI::App& command = asked_for(app);
+  const auto extras = app.remaining(true);
+  if (extras.empty()) return "an argument was not expected";
+  const std::string& given = extras.front();
+  if (given.size() < 2 || given[0] != '-') return "unexpected argument " + quoted(given);
+  std::vector<std::string> known;
+  for (const auto* option : command.get_options()) {
+    for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  const auto meant = base::likely(given.substr(0, given.find('=')), known);
+  return "unknown option " + given + (meant ? ", did you mean " + *meant + "?" : "");
+}
+
+/// One line, and where more is to be read.
+ExitCode report_usage(const CLI::App& app, const std::string& what) {
+  std::string help = app.get_name();
+  if (const CLI::App& command = asked_for(app); &command != &app) help += ' ' + command.get_name();
+  std::cerr << app.get_name() << ": error: " << what << " (see " << help << " --help)\n";
+  return exit_usage;
+}
+
+}  // namespace
+
+std::string endpoints_help() {
+  return "An endpoint is one of " + endpoints::usages() +
+         ", with options after a question mark: see trk help endpoints.";
+}
+
+Check whole_number(std::uint64_t least, std::uint64_t most) {
+  return [=](const std::string& text) {
+    if (transport::whole_number(text, least, most)) return std::string();
+    const bool is_limited = most != std::numeric_limits<std::uint64_t>::max();
+    return quoted(text) + ": must be a whole number " +
+           (is_limited ? "from " + number_text(least) + " to " + number_text(most)
+                       : "of at least " + number_text(least));
+  };
+}
+
+Check number(double least, double most) {
+  return [=](const std::string& text) {
+    if (transport::real_number(text, least, most)) return std::string();
+    return quoted(text) + ": must be a number from " + number_text(least) + " to " + number_text(most);
+  };
+}
+
+Check positive_number() {
+  return [](const std::string& text) {
+    if (transport::real_number(text, std::numeric_limits<double>::min(), std::numeric_limits<double>::max())) {
+      return std::string();
+    }
+    return quoted(text) + ": must be a number above 0";
+  };
+}
 
 transport::SourceEndpoint source_from(const std::string& url) {
   auto endpoint = endpoints::parse_source(url);
@@ -48,14 +142,16 @@ void write_whole_file(const std::string& path, const std::string& text) {
 ExitCode run_program(CLI::App& app, int argc, const char* const* argv, const std::function<ExitCode()>& run) {
   base::open_standard_descriptors();
   try {
+    check_command(app, argc, argv);
     app.parse(argc, argv);
     return run();
   } catch (const CLI::Success& help) {
     app.exit(help);
     return exit_good;
+  } catch (const CLI::ExtrasError&) {
+    return report_usage(app, extras_error(app));
   } catch (const CLI::Error& error) {
-    std::cerr << app.get_name() << ": error: " << error.what() << "\nRun with --help for more information.\n";
-    return exit_usage;
+    return report_usage(app, error.what());
   } catch (const std::exception& error) {
     std::cerr << app.get_name() << ": error: " << error.what() << '\n';
     return exit_failed;

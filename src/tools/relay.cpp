@@ -62,9 +62,9 @@ class Relay final : public cli::Listener {
 
 }  // namespace
 
-cli::ExitCode relay(transport::Source& source, FanOut& sinks) {
+cli::ExitCode relay(transport::Source& source, FanOut& sinks, std::optional<double> seconds) {
   Relay relay(sinks);
-  const cli::Ending ending = cli::listen(source, relay);
+  const cli::Ending ending = cli::listen(source, relay, seconds);
   return relay.finish(source.statistics(), ending);
 }
 

@@ -1,6 +1,9 @@
 // trk: one tool over endpoints.
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -10,12 +13,17 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include "base/nearest.h"
 #include "cli/arguments.h"
 #include "cli/checked_output.h"
+#include "cli/completion.h"
 #include "cli/exit_code.h"
+#include "cli/manual.h"
+#include "cli/option_text.h"
 #include "cli/stop_signals.h"
 #include "detect.h"
 #include "dump.h"
+#include "endpoint_help.h"
 #include "endpoints/presets.h"
 #include "lens_table.h"
 #include "monitor/monitor.h"
@@ -37,12 +45,12 @@ bool is_regular_file(int fd) {
 }
 
 void add_source(CLI::App& command, std::string& url) {
-  command.footer(cli::endpoints_help);
+  command.footer(cli::endpoints_help());
   command.add_option("SOURCE", url, "Where records come from")->required();
 }
 
 void add_seconds(CLI::App& command, std::optional<double>& seconds) {
-  command.add_option("--seconds", seconds, "End after S seconds")->check(CLI::PositiveNumber)->type_name("S");
+  command.add_option("--seconds", seconds, "End after S seconds")->check(cli::positive_number())->type_name("S");
 }
 
 /// With the source of that URL open, named on standard error, and stopped by signals.
@@ -60,7 +68,7 @@ class DumpCommand {
       : command_(app.add_subcommand("dump", "Print what comes from SOURCE, a record a line")) {
     add_source(*command_, url_);
     command_->add_flag("--json", options_.json, "A JSON object a line");
-    command_->add_option("--count", options_.count, "End after N records")->check(CLI::PositiveNumber)->type_name("N");
+    command_->add_option("--count", options_.count, "End after N records")->check(cli::whole_number(1))->type_name("N");
     add_seconds(*command_, options_.seconds);
   }
   bool is_asked_for() const { return command_->parsed(); }
@@ -88,7 +96,7 @@ class RelayCommand {
   explicit RelayCommand(CLI::App& app)
       : command_(app.add_subcommand("relay",
                                     "Pass on what comes from SOURCE to every SINK: record, play, convert, fan out")) {
-    command_->footer(cli::endpoints_help);
+    command_->footer(cli::endpoints_help());
     command_->add_option("SOURCE", source_url_, "Where records come from")->required();
     command_->add_option("SINK", sink_urls_, "Where they go")->required()->expected(1, -1);
     auto* format =
@@ -101,7 +109,9 @@ class RelayCommand {
         ->excludes(format);
     command_
         ->add_option("--id", form_.id, "Camera number in place of the one that came, for sinks whose URL says no id")
+        ->check(cli::whole_number(0, std::numeric_limits<std::uint32_t>::max()))
         ->type_name("N");
+    add_seconds(*command_, seconds_);
   }
   bool is_asked_for() const { return command_->parsed(); }
 
@@ -122,7 +132,7 @@ class RelayCommand {
       std::cerr << "trk: writing " << state.name << '\n';
       if (!state.notice.empty()) std::cerr << "trk: " << state.name << ": " << state.notice << '\n';
     }
-    return relay(*source, sinks);
+    return relay(*source, sinks, seconds_);
   }
 
  private:
@@ -144,6 +154,7 @@ class RelayCommand {
   std::optional<std::string> format_words_;
   std::optional<std::string> preset_name_;
   transport::SinkForm form_;
+  std::optional<double> seconds_;
 };
 
 class MonitorCommand {
@@ -245,6 +256,67 @@ class PresetsCommand {
   bool as_json_ = false;
 };
 
+std::string version() { return TRK_BRIDGE_VERSION; }
+
+/// Help on one topic, the manual page and completions: all of them from what the program itself declares.
+class HelpCommands {
+ public:
+  explicit HelpCommands(CLI::App& app)
+      : app_(app),
+        help_(app.add_subcommand("help", "Explain a command, or endpoints and their options")),
+        completion_(app.add_subcommand("completion", "Print a script by which a shell completes commands of trk")),
+        // For the build.
+        manual_(app.add_subcommand("manual", "Print the manual page")->group("")) {
+    help_->add_option("TOPIC", topic_, "A command, or endpoints");
+    completion_->add_option("SHELL", shell_, "The shell")->required()->check(CLI::IsMember({"bash", "zsh"}));
+  }
+  bool is_asked_for() const { return help_->parsed() || completion_->parsed() || manual_->parsed(); }
+
+  cli::ExitCode run() const {
+    cli::CheckedOutput out(std::cout);
+    std::string text = help_->parsed() ? help() : completion_->parsed() ? completion() : manual();
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    out.line(text, false);
+    return out.finish(std::cerr);
+  }
+
+ private:
+  std::vector<std::string> topics() const {
+    std::vector<std::string> all{endpoints_topic};
+    for (const auto* command : cli::visible_commands(app_)) all.push_back(command->get_name());
+    return all;
+  }
+  std::string help() const {
+    if (topic_.empty()) return app_.help();
+    if (topic_ == endpoints_topic) return cli::plain_text(endpoint_help());
+    const auto all = topics();
+    if (std::find(all.begin(), all.end(), topic_) != all.end())
+      return app_.get_subcommand(topic_)->help(app_.get_name());
+    std::string known;
+    for (const auto& topic : all) known += (known.empty() ? "" : ", ") + topic;
+    const auto meant = base::likely(topic_, all);
+    throw CLI::ValidationError("no help on \"" + topic_ + '"' +
+                               (meant ? ", did you mean " + *meant + '?' : "; topics are " + known));
+  }
+  std::string completion() const {
+    std::vector<std::string> presets;
+    for (const auto& preset : endpoints::presets()) presets.push_back(preset.name);
+    const auto urls = endpoint_prefixes();
+    const cli::Completions known{{"SOURCE", urls}, {"SINK", urls}, {"--preset", presets}, {"TOPIC", topics()}};
+    return shell_ == "bash" ? cli::bash_completion(app_, known) : cli::zsh_completion(app_, known);
+  }
+  std::string manual() const { return cli::manual_page(app_, version(), endpoint_help()); }
+
+  static constexpr const char* endpoints_topic = "endpoints";
+
+  const CLI::App& app_;
+  CLI::App* help_;
+  CLI::App* completion_;
+  CLI::App* manual_;
+  std::string topic_;
+  std::string shell_;
+};
+
 }  // namespace
 }  // namespace trk_bridge::tools
 
@@ -256,6 +328,7 @@ int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);
   CLI::App app("Shows, records, plays and converts camera tracking data.", "trk");
   app.require_subcommand(1);
+  app.set_version_flag("--version", "trk " + version(), "Print the version");
   DumpCommand dump_command(app);
   RelayCommand relay_command(app);
   MonitorCommand monitor_command(app);
@@ -265,7 +338,9 @@ int main(int argc, char** argv) {
 #ifdef TRK_BRIDGE_WITH_BAG
   bag::Command bag_command(app);
   bag::DelayCommand delay_command(app);
-#else
+#endif
+  const HelpCommands help_commands(app);
+#ifndef TRK_BRIDGE_WITH_BAG
   app.footer("Built without ROS: trk bag and trk delay are not part of it.");
 #endif
   return cli::run_program(app, argc, argv, [&] {
@@ -273,6 +348,7 @@ int main(int argc, char** argv) {
     if (bag_command.is_asked_for()) return bag_command.run();
     if (delay_command.is_asked_for()) return delay_command.run();
 #endif
+    if (help_commands.is_asked_for()) return help_commands.run();
     if (dump_command.is_asked_for()) return dump_command.run();
     if (relay_command.is_asked_for()) return relay_command.run();
     if (detect_command.is_asked_for()) return detect_command.run();

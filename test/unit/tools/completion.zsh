@@ -1,0 +1,16 @@
+# Types into an interactive zsh that has read the completion script FILE: completion.zsh FILE. Prints what a trk of its
+# own is called with.
+zmodload zsh/zpty
+zpty terminal zsh -f -i
+type() { zpty -w -n terminal $1$'\r' }
+answer() {
+  local line
+  zpty -r terminal line "*got:*[[:cntrl:]]" || return
+  print -r -- ${${line##*got:}%%[[:cntrl:]]*}
+}
+type "PS1=; unsetopt zle_bracketed_paste; autoload -Uz compinit; compinit -u -D; source $1; trk() { print -r -- got\":\$*\" }"
+for line in $'trk du\t' $'trk dump --js\t' $'trk relay --pre\t' $'trk relay --preset pixo\t' $'trk dump op\t'; do
+  type $line
+  answer
+done
+zpty -d terminal
