@@ -14,3 +14,38 @@ else()
   install(FILES ${PROJECT_BINARY_DIR}/trk_bridgeConfig.cmake ${PROJECT_BINARY_DIR}/trk_bridgeConfigVersion.cmake
     DESTINATION ${TRK_BRIDGE_CMAKE_DIR})
 endif()
+
+# pkg-config's files: the C libraries, and the C++ ones that others may link. They are found from where they lie, so that
+# an installation may be moved. catkin's own trk_bridge.pc, which this replaces, has a prefix that is fixed, and an
+# include path that no compiler finds, and requires packages whose own files are not everywhere (pluginlib).
+file(RELATIVE_PATH TRK_PC_TO_PREFIX /prefix/${TRK_BRIDGE_LIB_DIR}/pkgconfig /prefix)
+set(TRK_PC_LIBS)
+foreach(library endpoints camera transport wire base)
+  string(APPEND TRK_PC_LIBS " -ltrk_bridge_${library}")
+endforeach()
+set(TRK_PC_REQUIRES)
+if(TRK_BRIDGE_ROS)
+  string(PREPEND TRK_PC_LIBS "-ltrk_bridge_ros")
+  # Those whose headers ours include.
+  set(TRK_PC_REQUIRES " geometry_msgs roscpp sensor_msgs std_msgs")
+endif()
+string(STRIP "${TRK_PC_LIBS}" TRK_PC_LIBS)
+
+# trk_bridge_pkg_config(NAME TEMPLATE)
+function(trk_bridge_pkg_config TRK_PC_NAME template)
+  if(TRK_BRIDGE_ROS)
+    # For who has sourced the devel space.
+    set(TRK_PC_INCLUDE_DIR ${PROJECT_SOURCE_DIR}/include)
+    set(TRK_PC_CFLAGS " -I\${prefix}/include")  # of generated messages
+    configure_file(cmake/${template} ${CATKIN_DEVEL_PREFIX}/${TRK_BRIDGE_LIB_DIR}/pkgconfig/${TRK_PC_NAME}.pc @ONLY)
+  endif()
+  set(TRK_PC_CFLAGS)
+  set(TRK_PC_INCLUDE_DIR "\${prefix}/${TRK_BRIDGE_INCLUDE_DIR}")
+  configure_file(cmake/${template} pkgconfig/${TRK_PC_NAME}.pc @ONLY)
+  # It is made above.
+  #catkin_lint: ignore_once missing_file
+  install(FILES ${PROJECT_BINARY_DIR}/pkgconfig/${TRK_PC_NAME}.pc DESTINATION ${TRK_BRIDGE_LIB_DIR}/pkgconfig)
+endfunction()
+trk_bridge_pkg_config(trk trk.pc.in)
+trk_bridge_pkg_config(trk_identified trk.pc.in)
+trk_bridge_pkg_config(trk_bridge trk_bridge.pc.in)
