@@ -19,10 +19,11 @@ target_compile_options(trk_bridge_options INTERFACE -Wall -Wextra -Wpedantic -Wc
   -fno-semantic-interposition
   $<$<BOOL:${TRK_BRIDGE_WERROR}>:-Werror>)
 
-# trk_bridge_library(TARGET SOURCE... [EXPORT_AS NAME] [PUBLIC LIB...] [PRIVATE LIB...]): a room's library, shared and
-# installed. With EXPORT_AS it is the target trk_bridge::NAME, for other projects as well.
+# trk_bridge_library(TARGET SOURCE... [PLUGIN] [EXPORT_AS NAME] [PUBLIC LIB...] [PRIVATE LIB...]): a room's library, shared
+# and installed. With EXPORT_AS it is the target trk_bridge::NAME, for other projects as well. The binary interface is that
+# of a minor version; a PLUGIN, which ROS loads by its file name, has none.
 function(trk_bridge_library name)
-  cmake_parse_arguments(ARG "" "EXPORT_AS" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "PLUGIN" "EXPORT_AS" "PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} SHARED ${ARG_UNPARSED_ARGUMENTS})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
@@ -30,6 +31,10 @@ function(trk_bridge_library name)
   target_compile_features(${name} PUBLIC cxx_std_17)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} trk_bridge_options)
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN")
+  if(NOT ARG_PLUGIN)
+    set_target_properties(${name} PROPERTIES
+      VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  endif()
   set(export)
   if(ARG_EXPORT_AS)
     add_library(trk_bridge::${ARG_EXPORT_AS} ALIAS ${name})

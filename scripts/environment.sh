@@ -18,12 +18,14 @@ for variable in CMAKE_PREFIX_PATH LD_LIBRARY_PATH PATH PKG_CONFIG_PATH ROS_PACKA
   [ -n "${!variable}" ] || unset "$variable"
 done
 
-# Noetic brings its own tree; Debian's packages are in /usr and need no set-up.
-if [ -r /opt/ros/noetic/setup.bash ]; then
+# Noetic and ROS-O bring their own trees; Debian's packages are in /usr and need no set-up.
+for distribution in noetic one; do
+  [ -r "/opt/ros/$distribution/setup.bash" ] || continue
   set +u
-  . /opt/ros/noetic/setup.bash
+  . "/opt/ros/$distribution/setup.bash"
   set -u
-fi
+  break
+done
 
 # On Ubuntu 20.04 the default compiler is too old for the number parsing; take a newer one where there is one.
 if [ -z "${CXX:-}" ] && ! echo '__GNUC__' | c++ -E -P -x c++ - 2>/dev/null | awk '{exit !($1 >= 11)}'; then
