@@ -18,6 +18,8 @@ class Vt100 {
     for (auto& line : cells_) line.resize(width, ' ');
     row_ = std::min(row_, height - 1);
     column_ = std::min(column_, width - 1);
+    top_ = 0;
+    bottom_ = height - 1;
   }
 
   /// Any piece of what the program writes: sequences may be cut anywhere.
@@ -41,6 +43,7 @@ class Vt100 {
         return put_text(c);
       case State::escape:
         parameters_.clear();
+        if (c == 'M') back();
         state_ = c == '[' ? State::control : c == '(' || c == ')' ? State::charset : State::text;
         return;
       case State::charset:
@@ -65,7 +68,11 @@ class Vt100 {
         column_ = 0;
         return;
       case '\n':
-        move(static_cast<long>(row_) + 1, static_cast<long>(column_));
+        if (row_ == bottom_) {
+          scroll(top_, bottom_);
+        } else {
+          move(static_cast<long>(row_) + 1, static_cast<long>(column_));
+        }
         return;
       case '\b':
         move(static_cast<long>(row_), static_cast<long>(column_) - 1);
@@ -90,6 +97,30 @@ class Vt100 {
     if (what == 'D') move(row, column - n);
     if (what == 'K') erase(row_, parameter(0, 0));
     if (what == 'J') erase_screen(parameter(0, 0));
+    if (what == 'r') set_margins();
+  }
+
+  void set_margins() {
+    const auto height = static_cast<long>(cells_.size());
+    top_ = static_cast<std::size_t>(std::clamp(parameter(0, 1), 1L, height) - 1);
+    bottom_ = static_cast<std::size_t>(std::clamp(parameter(1, height), 1L, height) - 1);
+    move(0, 0);
+  }
+
+  /// One line up, or all lines between the margins down.
+  void back() {
+    if (row_ != top_) return move(static_cast<long>(row_) - 1, static_cast<long>(column_));
+    const auto line = cells_.begin();
+    std::rotate(line + static_cast<std::ptrdiff_t>(top_), line + static_cast<std::ptrdiff_t>(bottom_),
+                line + static_cast<std::ptrdiff_t>(bottom_ + 1));
+    erase(top_, 2);
+  }
+  /// All lines but the first one move up.
+  void scroll(std::size_t first, std::size_t last) {
+    const auto line = cells_.begin();
+    std::rotate(line + static_cast<std::ptrdiff_t>(first), line + static_cast<std::ptrdiff_t>(first + 1),
+                line + static_cast<std::ptrdiff_t>(last + 1));
+    erase(last, 2);
   }
 
   long parameter(int index, long fallback) const {
@@ -124,6 +155,7 @@ class Vt100 {
 
   std::vector<std::string> cells_;
   std::size_t row_ = 0, column_ = 0;
+  std::size_t top_ = 0, bottom_ = 0;  // lines that scroll
   State state_ = State::text;
   std::string parameters_;
 };
