@@ -35,7 +35,7 @@ ROOMS = {
     "demo": Room("crane and test card", ("camera", "nodes", "ros", "wire"), ros=True),
     "rviz": Room("the display", ("camera", "ros"), ros=True),
     "cli": Room("shared by programs", ("base", "endpoints", "transport", "wire")),
-    "monitor": Room("trk monitor", ("base", "camera", "cli", "transport", "wire")),
+    "monitor": Room("trk monitor", ("base", "bridge", "camera", "cli", "transport", "wire")),
     "bag": Room("trk bag", ("base", "bridge", "camera", "cli", "delay", "file", "ros", "transport", "wire"), ros=True),
     "tools": Room("trk", ("base", "bridge", "camera", "cli", "endpoints", "lens", "monitor", "plot", "transport", "wire"), uses_with_ros=("bag",)),
     "programs": Room("six test programs", ("base", "c_api", "camera", "cli", "wire")),

@@ -67,6 +67,13 @@ enum class Condition : std::uint8_t {
   sink_too_slow,
   queue_drops,
   delay_too_short,
+  // of trk monitor, which shares most of trk_to_ros
+  other_interface,
+  time_code_counter,
+  bursts,
+  stalls,
+  rate,
+  alarm,
   // of every node
   ros_time_stands,
   master_silent,

@@ -3,14 +3,20 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "arrival_window.h"
+#include "bridge/camera_pipeline.h"
 #include "cli/tally.h"
+#include "findings.h"
+#include "history.h"
 #include "rest_window.h"
+#include "time_code_counter.h"
 #include "trk_bridge/camera/camera.h"
 #include "trk_bridge/transport/source.h"
 
@@ -47,15 +53,25 @@ struct CameraState {
   std::optional<double> rate;  ///< Hz over the window of arrivals
   std::optional<Jitter> jitter;
   Rest rest;
+  std::optional<double> loss;           ///< percent of this id's records within the last seconds
+  std::vector<std::int64_t> intervals;  ///< ns, over the window of arrivals
+  /// For plots; null where there is none. Of the model, for as long as nothing is added: see held().
+  std::shared_ptr<const History> history;
 };
 
 struct State {
   std::string source_name;
+  double age = 0;  ///< s, since the model knew nothing
+  /// What is wrong, the most important first; never empty.
+  std::vector<bridge::Finding> findings;
   transport::SourceStatistics source;
   std::optional<MalformedState> malformed;
-  std::vector<CameraState> cameras;  ///< by id and sender, those that send before the silent ones
-  std::uint64_t not_shown = 0;       ///< records of more cameras than cli::Tally::most_cameras
+  std::vector<CameraState> cameras;                      ///< by id and sender, those that send before the silent ones
+  std::uint64_t not_shown = 0;                           ///< records of more cameras than cli::Tally::most_cameras
+  std::uint64_t recent_malformed = 0, recent_drops = 0;  ///< within the last seconds; drops: of the kernel
 };
+/// A state that stays as it is whatever becomes of its model.
+State held(State);
 
 /// Not synchronised. Reads no clock: `now` is when a record was handed out or the state is asked for, and gives the
 /// ages. Rate, jitter and noise are computed from the arrival of the records, which is the kernel's time stamp for UDP
@@ -64,11 +80,17 @@ class Model {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
+  /// What the source has counted before `begin` is not shown: after a reset.
+  explicit Model(Time begin, transport::SourceStatistics before = {});
+
   void add(const transport::Sample&, Time now);
   void add_malformed(const transport::Reception&, Time now);
 
-  State state(Time now, const transport::Source&) const;
-  const cli::Tally& tally() const noexcept { return tally_; }
+  /// Findings compare it with the states before: it is to be asked for at least every second.
+  State state(Time now, const transport::Source&);
+
+  /// Findings are of what came within this time, s.
+  static constexpr double looks_back = 5;
 
  private:
   struct Latest {
@@ -80,23 +102,46 @@ class Model {
     std::optional<base::CountedTimeCode> time_code;
     Time came;
   };
+  /// One id of one sender.
   struct Track {
     std::optional<Latest> latest;
-    std::optional<wire::CameraConstants> constants;
+    std::optional<transport::Sample> constants;
+    base::Sequence sequence;
     ArrivalWindow arrivals;
     RestWindow poses;
+    History history;
+
+    const wire::CameraConstants* constants_or_null() const;
+  };
+  /// One id, whoever sends it: as a receiver takes it.
+  struct Watched {
+    bridge::CameraPipeline pipeline;
+    TimeCodeCounter counter;
   };
   struct Malformed {
     transport::Fault fault;
     transport::Sender sender;
     Time came;
   };
+  struct Look {
+    std::int64_t time = 0;  // steady clock, ns
+    transport::SourceStatistics source;
+    KernelCounters kernel;
+    std::map<std::uint32_t, bridge::CameraStatistics> cameras;
+  };
 
   static void add_params(Track&, const transport::Sample&, const wire::CameraParams&, Time now);
-  CameraState state_of(const cli::Tally::Key&, const Track&, Time now) const;
+  void watch(const transport::Sample&, Time now);
+  Watched& watched(std::uint32_t id, Time now);
+  bridge::CameraReport report(const Look&, std::optional<std::uint32_t> id, const std::string& source_name) const;
+  SourceLooks look(Time now, const transport::Source&);
+  static CameraState state_of(const cli::Tally::Key&, const Track&, Time now);
 
-  cli::Tally tally_;
+  Time begin_;
+  transport::SourceStatistics before_;
   std::map<cli::Tally::Key, Track, cli::Tally::Less> tracks_;
+  std::map<std::uint32_t, Watched> watched_;
+  std::deque<Look> looks_;
   std::optional<Malformed> malformed_;
   std::uint64_t not_shown_ = 0;
 };

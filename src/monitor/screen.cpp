@@ -45,8 +45,9 @@ enum Pair : short { warning_pair = 1, error_pair = 2 };
 bool begin_colours() {
   if (!variable("NO_COLOR").empty() || !::has_colors()) return false;
   if (::start_color() == ERR || ::use_default_colors() == ERR) return false;
-  ::init_pair(warning_pair, COLOR_YELLOW, -1);
-  ::init_pair(error_pair, COLOR_RED, -1);
+  // With a background of their own they can be read whatever the terminal's is.
+  ::init_pair(warning_pair, COLOR_BLACK, COLOR_YELLOW);
+  ::init_pair(error_pair, COLOR_WHITE, COLOR_RED);
   return true;
 }
 
@@ -64,10 +65,8 @@ attr_t attributes(Style style, bool has_colour) {
       return A_NORMAL;
     case Style::heading:
       return A_BOLD;
-    case Style::faint:
-      return A_DIM;
     case Style::warning:
-      return has_colour ? A_BOLD | static_cast<attr_t>(COLOR_PAIR(warning_pair)) : A_BOLD;
+      return has_colour ? static_cast<attr_t>(COLOR_PAIR(warning_pair)) : A_BOLD;
     case Style::error:
       return has_colour ? A_BOLD | static_cast<attr_t>(COLOR_PAIR(error_pair)) : A_REVERSE;
   }
@@ -126,17 +125,13 @@ void Screen::show(const std::vector<Line>& lines) {
   ::wrefresh(stdscr);
 }
 
-Screen::Key Screen::key(std::chrono::milliseconds wait) {
+std::optional<char> Screen::key(std::chrono::milliseconds wait) {
   ::wtimeout(stdscr, static_cast<int>(wait.count()));
-  switch (::wgetch(stdscr)) {
-    case ERR:
-      return Key::none;
-    case 'q':
-    case 'Q':
-      return Key::quit;
-    default:
-      return Key::other;
-  }
+  const int key = ::wgetch(stdscr);
+  if (key == ERR) return std::nullopt;
+  return key > 0 && key < KEY_MIN ? static_cast<char>(key) : '\0';
 }
+
+void Screen::ring() { ::beep(); }
 
 }  // namespace trk_bridge::monitor

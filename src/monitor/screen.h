@@ -2,8 +2,8 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "view.h"
@@ -15,8 +15,6 @@ namespace trk_bridge::monitor {
 /// these, too; the quit key is off. What handles SIGINT and SIGTERM must be in place before. One at a time, one thread.
 class Screen {
  public:
-  enum class Key : std::uint8_t { none, quit, other };
-
   /// Throws std::runtime_error when the terminal's type (TERM) is not known. Without colour where the terminal has none
   /// or the environment has NO_COLOR, not empty.
   Screen();
@@ -29,8 +27,11 @@ class Screen {
   Size size() const;
   /// Replaces what was shown.
   void show(const std::vector<Line>&);
-  /// The next key, waiting at most `wait` for it; a change of size counts as one.
-  Key key(std::chrono::milliseconds wait);
+  /// The next key, waiting at most `wait` for it; none when there is none. Keys without a character, and a change of
+  /// size, are 0.
+  std::optional<char> key(std::chrono::milliseconds wait);
+  /// Rings the terminal's bell.
+  void ring();
 
  private:
   struct Terminal;

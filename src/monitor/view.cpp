@@ -4,12 +4,21 @@
 #include <string_view>
 #include <utility>
 
+#include "chart.h"
 #include "text.h"
 
 namespace trk_bridge::monitor {
 namespace {
 
-constexpr std::size_t camera_indent = 2;
+constexpr std::size_t indent = 2;
+// A cell has its label at the left, the value ends in one column, the unit is behind it.
+constexpr std::size_t cell_width = 19, value_end = 14;
+constexpr std::size_t columns_for_rows = 4;  // with fewer, groups do not begin lines of their own
+constexpr std::size_t most_columns = 6;
+constexpr std::size_t gap = 2;
+constexpr std::size_t fewest_rows_with_keys = 6;
+constexpr std::size_t plot_rows = 7, fewest_plot_rows = 5, most_plots = 4;  // with its title
+constexpr std::size_t histogram_width = 32, fewest_columns_with_histogram = 72;
 
 std::string printable(std::string text) {
   std::replace_if(
@@ -17,37 +26,61 @@ std::string printable(std::string text) {
   return text;
 }
 
-/// Puts items one after the other into lines of a width.
-class Flow {
- public:
-  explicit Flow(std::size_t width) : width_(width) {}
-
-  /// Lines after the group's first one begin with `indent` spaces.
-  void add(const Group& group, std::size_t first_indent, std::size_t indent) {
-    begin_line(first_indent);
-    indent_ = std::min(indent, width_ / 2);
-    for (const auto& item : group.items) add(printable(item.text), item.style, group.gap);
+std::string in_columns(const Cell& cell) {
+  std::string text = cell.label;
+  if (!cell.value.empty()) {
+    const std::size_t used = text.size() + cell.value.size();
+    text += std::string(used < value_end ? value_end - used : (text.empty() ? 0 : 1), ' ') + cell.value;
   }
+  return cell.unit.empty() ? text : text + " " + cell.unit;
+}
+
+/// Lines of a width, filled from the left.
+class Lines {
+ public:
+  explicit Lines(std::size_t width) : width_(width) {}
+
+  /// What does not fit in one line goes on in the next with `hanging` spaces.
+  void begin(std::size_t indentation, std::size_t hanging) {
+    hanging_ = std::min(hanging, width_ / 2);
+    begin_line(std::min(indentation, width_ / 2));
+  }
+  /// Behind what is there.
+  void flow(const std::string& text, Style style) { add(printable(text), style, is_begun_ ? used_ + gap : used_); }
+  /// In the next column.
+  void cell(const Cell& cell) {
+    const std::size_t begun = used_ - begin_ + (is_begun_ ? 1 : 0);
+    add(printable(in_columns(cell)), cell.style, begin_ + (begun + cell_width - 1) / cell_width * cell_width);
+  }
+  /// Columns that are free in this line, and in a line.
+  std::size_t columns_left() const {
+    const std::size_t used = (used_ - begin_ + cell_width - 1) / cell_width;
+    return used > columns() ? 0 : columns() - used;
+  }
+  std::size_t columns() const { return std::min((width_ - std::min(width_, begin_) + 1) / cell_width, most_columns); }
+  std::size_t size() const { return lines_.size(); }
   std::vector<Line> finish() { return std::move(lines_); }
 
  private:
-  void begin_line(std::size_t indent) {
+  void begin_line(std::size_t indentation) {
     lines_.emplace_back();
+    begin_ = indentation;
     used_ = 0;
     is_begun_ = false;
-    if (indent != 0) put(std::string(std::min(indent, width_ / 2), ' '), Style::plain);
+    pad_to(indentation);
   }
-
+  void pad_to(std::size_t column) {
+    if (column > used_) put(std::string(column - used_, ' '), Style::plain);
+  }
   void put(std::string text, Style style) {
     used_ += text.size();
     lines_.back().push_back({std::move(text), style});
   }
-
-  void add(std::string_view text, Style style, std::size_t gap) {
-    if (is_begun_ && used_ + gap + text.size() <= width_) {
-      put(std::string(gap, ' '), Style::plain);
-    } else if (is_begun_) {
-      begin_line(indent_);
+  void add(std::string_view text, Style style, std::size_t column) {
+    if (is_begun_ && column + text.size() > width_) {
+      begin_line(hanging_);
+    } else {
+      pad_to(std::min(column, width_));
     }
     while (used_ + text.size() > width_) {
       const std::size_t room = width_ - used_;
@@ -55,88 +88,294 @@ class Flow {
       const bool has_space = space != std::string_view::npos && space != 0;
       put(std::string(text.substr(0, has_space ? space : room)), style);
       text.remove_prefix(has_space ? space + 1 : room);
-      begin_line(indent_);
+      begin_line(hanging_);
     }
     put(std::string(text), style);
     is_begun_ = true;
   }
 
-  std::size_t width_, indent_ = 0, used_ = 0;
+  std::size_t width_, hanging_ = 0, begin_ = 0, used_ = 0;
   bool is_begun_ = false;
   std::vector<Line> lines_;
 };
 
-std::vector<Line> lines_of(const CameraState& camera, std::size_t width) {
-  Flow flow(width);
-  std::size_t indent = 0;
-  for (const auto& group : groups_of(camera)) {
-    flow.add(group, indent, 2 * camera_indent);
-    indent = camera_indent;
+/// Lines, and the group that each is of.
+struct Block {
+  std::vector<Line> lines;
+  std::vector<std::string> groups;
+
+  /// Removes all but the first `rows`; the names of the groups of which lines are missing.
+  std::vector<std::string> cut(std::size_t rows) {
+    std::vector<std::string> missing;
+    for (std::size_t i = rows; i < lines.size(); ++i) {
+      if (missing.empty() || missing.back() != groups[i]) missing.push_back(groups[i]);
+    }
+    if (lines.size() > rows) lines.resize(rows);
+    return missing;
   }
-  return flow.finish();
+};
+
+Block block_of(const CameraState& camera, std::size_t width, bool is_one_of_several) {
+  Lines lines(width);
+  Block block;
+  const auto groups = groups_of(camera);
+  lines.begin(0, indent);
+  std::string mark = is_one_of_several ? "> " : "";
+  for (const auto& cell : groups.front().cells) lines.flow(std::exchange(mark, "") + to_string(cell), cell.style);
+  block.groups.resize(lines.size(), groups.front().name);
+  lines.begin(indent, indent);
+  for (std::size_t i = 1; i < groups.size(); ++i) {
+    const auto& cells = groups[i].cells;
+    const bool is_words = !cells.empty() && cells.front().value.empty();
+    const bool joins = lines.columns() < columns_for_rows || (cells.size() <= lines.columns_left() && !is_words);
+    if (!joins) lines.begin(indent, indent);
+    for (const auto& cell : cells) lines.cell(cell);
+    block.groups.resize(lines.size(), groups[i].name);
+  }
+  block.lines = lines.finish();
+  return block;
 }
 
-std::vector<Line> lines_of(const State& state, std::size_t width) {
-  Flow flow(width);
-  auto groups = groups_of(state);
-  groups.front().items.push_back({"q: quit", Style::faint});
-  for (const auto& group : groups) flow.add(group, 0, camera_indent);
-  return flow.finish();
+Line summary_line(const CameraState& camera, std::size_t width) {
+  Lines lines(width);
+  lines.begin(indent, indent);
+  for (const auto& cell : summary_of(camera)) lines.cell(cell);
+  return lines.finish().front();
 }
 
-/// Every camera's lines within `room`; blank lines between them where there is room for all.
-void add_cameras(const State& state, std::size_t width, std::size_t room, std::vector<Line>& screen) {
-  std::vector<std::vector<Line>> blocks;
-  std::size_t wanted = 0;
-  for (const auto& camera : state.cameras) {
-    blocks.push_back(lines_of(camera, width));
-    wanted += blocks.back().size();
+std::vector<Line> head_of(const State& state, const Choice& choice, std::size_t width) {
+  Lines lines(width);
+  lines.begin(0, indent);
+  lines.flow("trk monitor", Style::heading);
+  if (choice.is_paused) lines.flow("PAUSED", Style::warning);
+  const auto what = state_of(state.source);
+  lines.flow(what.label, what.style);
+  for (const auto& cell : counts_of(state)) lines.flow(to_string(cell), cell.style);
+  if (!choice.notice.empty()) {
+    lines.begin(0, indent);
+    lines.flow(choice.notice, Style::heading);
   }
-  const bool has_gaps = wanted + blocks.size() <= room;
-  // With more cameras than lines the last line says how many there are besides.
-  const std::size_t shown = blocks.size() <= room ? blocks.size() : room - 1;
-  std::size_t left = room - (shown < blocks.size() ? 1 : 0);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const std::size_t share = has_gaps ? blocks[i].size() : std::min(blocks[i].size(), left / (shown - i));
-    if (has_gaps) screen.emplace_back();
-    std::move(blocks[i].begin(), blocks[i].begin() + static_cast<std::ptrdiff_t>(share), std::back_inserter(screen));
-    left -= std::min(left, share);
-  }
-  if (shown == blocks.size()) return;
-  Flow flow(width);
-  flow.add({{{std::to_string(blocks.size() - shown) + " more", Style::warning}}}, 0, 0);
-  screen.push_back(flow.finish().front());
+  return lines.finish();
 }
 
-std::string joined(const std::vector<Group>& groups) {
-  std::string line;
-  for (const auto& group : groups) {
-    for (const auto& item : group.items) {
-      if (!line.empty()) line += "  ";
-      line += printable(item.text);
+Style style_of(const bridge::Finding& finding) {
+  if (finding.level == bridge::Level::ok) return Style::plain;
+  return finding.level == bridge::Level::error ? Style::error : Style::warning;
+}
+
+std::vector<Line> findings_of(const State& state, const Choice& choice, std::size_t width) {
+  Lines lines(width);
+  for (const auto& text : choice.guide) {
+    lines.begin(0, indent);
+    lines.flow(text, Style::heading);
+  }
+  if (!choice.guide.empty()) return lines.finish();
+  for (const auto& finding : state.findings) {
+    lines.begin(0, indent);
+    lines.flow((finding.level == bridge::Level::ok ? "- " : "! ") + finding.text, style_of(finding));
+  }
+  lines.begin(0, indent);
+  for (const auto& cell : malformed_of(state)) lines.flow(to_string(cell), cell.style);
+  auto finished = lines.finish();
+  if (!state.malformed) finished.pop_back();
+  return finished;
+}
+
+Line keys_line(std::size_t width, bool has_guide) {
+  Lines lines(width);
+  lines.begin(0, 0);
+  if (has_guide) lines.flow("space: next step  a: end", Style::heading);
+  for (const char* key : {"?: help", "q: quit", "p: pause", "r: reset", "n: next camera", "v: value", "t: time",
+                          "R: record", "a: axis check"}) {
+    lines.flow(key, Style::plain);
+  }
+  return lines.finish().front();
+}
+
+Line text_line(std::string text, Style style = Style::plain) { return {{std::move(text), style}}; }
+
+std::string fitted(std::string text, std::size_t width) {
+  text.resize(width, ' ');
+  return text;
+}
+
+/// `rows` lines: plots one above the other, beside them the histogram.
+std::vector<Line> charts(const CameraState& camera, const Choice& choice, std::size_t width, std::size_t rows) {
+  const bool has_histogram = width >= fewest_columns_with_histogram;
+  const std::size_t left = has_histogram ? width - histogram_width - gap : width;
+  const std::size_t plots = std::clamp<std::size_t>(rows / plot_rows, 1, most_plots);
+  const auto span = static_cast<std::int64_t>(choice.seconds) * 1'000'000'000;
+  const auto end = camera.history->newest() + static_cast<std::int64_t>(camera.latest->age * 1e9);
+
+  std::vector<std::string> text;
+  for (std::size_t i = 0; i < plots; ++i) {
+    const auto value = static_cast<Value>((static_cast<std::size_t>(choice.plotted) + i) % value_count);
+    const auto& [name, unit, decimals, least_range] = text_of(value);
+    const std::size_t share = (rows - text.size()) / (plots - i);
+    text.push_back(std::string(name) + (*unit == '\0' ? "" : std::string(" (") + unit + ")") + ", last " +
+                   std::to_string(choice.seconds) + " s");
+    const std::size_t columns = left > scale_width ? left - scale_width : 0;
+    for (auto& line : curve(camera.history->columns(value, end, span, columns), share - 1, decimals, least_range)) {
+      text.push_back(std::move(line));
     }
   }
+  std::vector<std::string> bars{"intervals, last 10 s"};
+  for (auto& line : histogram(camera.intervals, rows - 1, histogram_width)) bars.push_back(std::move(line));
+  std::vector<Line> lines;
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::string line = fitted(row < text.size() ? text[row] : "", left);
+    if (has_histogram && row < bars.size()) line += std::string(gap, ' ') + bars[row];
+    lines.push_back(text_line(line.substr(0, width)));
+  }
+  return lines;
+}
+
+std::string plural(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " more " + what + (count == 1 ? "" : "s");
+}
+
+/// With the number of those that have no room.
+std::string listed(const std::vector<std::string>& names, std::size_t width) {
+  for (std::size_t count = names.size(); count > 0; --count) {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i) text += (i == 0 ? "" : ", ") + names[i];
+    if (count < names.size()) text += ", +" + std::to_string(names.size() - count);
+    if (text.size() <= width) return text;
+  }
+  return std::to_string(names.size()) + " parts";
+}
+
+std::string joined(const std::vector<Cell>& cells) {
+  std::string line;
+  for (const auto& cell : cells) line += (line.empty() ? "" : "  ") + printable(to_string(cell));
   return line;
 }
 
 }  // namespace
 
-std::vector<Line> screen_of(const State& state, Size size) {
-  if (size.width == 0 || size.height == 0) return {};
-  auto screen = lines_of(state, size.width);
-  if (!state.cameras.empty()) screen.resize(std::min(screen.size(), std::max<std::size_t>(1, size.height / 3)));
-  if (screen.size() < size.height && !state.cameras.empty()) {
-    add_cameras(state, size.width, size.height - screen.size(), screen);
+std::size_t chosen(const State& state, const Choice& choice) {
+  const cli::Tally::Less less;
+  for (std::size_t i = 0; choice.camera && i < state.cameras.size(); ++i) {
+    const auto& key = state.cameras[i].key;
+    if (!less(key, *choice.camera) && !less(*choice.camera, key)) return i;
   }
-  if (screen.size() > size.height) screen.resize(size.height);
+  return 0;
+}
+
+std::vector<Line> screen_of(const State& state, const Choice& choice, Size size) {
+  if (size.width == 0 || size.height == 0) return {};
+  std::vector<std::string> hidden;
+  const auto append = [](std::vector<Line>& to, std::vector<Line> lines) {
+    std::move(lines.begin(), lines.end(), std::back_inserter(to));
+  };
+
+  // The first finding comes whole before anything else does.
+  auto screen = head_of(state, choice, size.width);
+  screen.resize(std::min(screen.size(), std::max<std::size_t>(1, size.height / 5)));
+  auto findings = findings_of(state, choice, size.width);
+  const std::size_t for_findings =
+      choice.guide.empty() ? std::max<std::size_t>(2, size.height / 4) : size.height - screen.size();
+  if (findings.size() > for_findings) {
+    findings.resize(for_findings);
+    hidden.emplace_back("findings");
+  }
+  append(screen, std::move(findings));
+  if (screen.size() >= size.height) {
+    screen.resize(size.height);
+    return screen;
+  }
+  const bool has_keys = size.height >= fewest_rows_with_keys;
+  std::size_t room = size.height - screen.size() - (has_keys ? 1 : 0);
+
+  if (!state.cameras.empty()) {
+    const std::size_t at = chosen(state, choice);
+    const auto& camera = state.cameras[at];
+    const std::size_t others = state.cameras.size() - 1;
+    auto block = block_of(camera, size.width, others > 0);
+    const bool has_room_for_all = block.lines.size() + others + (hidden.empty() ? 0 : 1) <= room;
+    // The line that names what is hidden.
+    const std::size_t usable = has_room_for_all || !has_keys ? room : room - std::min<std::size_t>(room, 1);
+    const std::size_t shown_others =
+        std::min(others, std::max(usable / 3, usable - std::min(usable, block.lines.size())));
+    for (auto& name : block.cut(usable - shown_others)) hidden.push_back(std::move(name));
+    append(screen, std::move(block.lines));
+    for (std::size_t i = 0, shown = 0; i < state.cameras.size() && shown < shown_others; ++i) {
+      if (i == at) continue;
+      screen.push_back(summary_line(state.cameras[i], size.width));
+      ++shown;
+    }
+    if (shown_others < others) hidden.push_back(plural(others - shown_others, "camera"));
+
+    room = size.height - screen.size() - (has_keys ? 1 : 0);
+    const std::size_t for_hidden = hidden.empty() && size.width >= fewest_columns_with_histogram ? 0 : 1;
+    if (camera.latest && camera.history && room >= fewest_plot_rows + for_hidden) {
+      append(screen, charts(camera, choice, size.width, room - for_hidden));
+      if (size.width < fewest_columns_with_histogram) hidden.emplace_back("histogram");
+    } else if (camera.history) {
+      hidden.emplace_back("plots");
+    }
+  }
+  const std::size_t last = size.height - (has_keys ? 1 : 0);
+  if (!hidden.empty() && screen.size() < last) {
+    screen.resize(last - 1);
+    const std::string text = "hidden: " + listed(hidden, size.width - std::min<std::size_t>(size.width, 8));
+    screen.push_back(text_line(text.substr(0, size.width), Style::heading));
+  }
+  if (has_keys) {
+    screen.resize(last);
+    screen.push_back(keys_line(size.width, !choice.guide.empty()));
+  }
   return screen;
+}
+
+std::vector<Line> help_screen(Size size) {
+  static constexpr const char* texts[] = {
+      "?  help             q  quit",
+      "p  pause: what is shown stays, records are still received",
+      "r  reset: counts, plots and findings begin again",
+      "n  next camera      N  the one before",
+      "v  next value       V  the one before (plots)",
+      "t  time of plots: 10, 30, 60 s",
+      "R  record the camera as a take; again: end it",
+      "a  axis check: moves the camera step by step",
+      "",
+      "Angles in degrees, pan to the left, tilt upwards, roll clockwise as the operator sees it.",
+      "Position in metres, studio frame: x right wall, y back wall, z up.",
+      "lens: image distance.  fov h: horizontal field of view without distortion.",
+      "jitter, p99, worst: how far intervals are from the median one.",
+      "noise: standard deviation while the camera is at rest.",
+      "Lines with ! need attention; the first one is the most important.",
+      "The lowest line above the keys names what has no room in this terminal.",
+      "",
+      "Any key goes back."};
+  Lines lines(size.width);
+  if (size.width == 0) return {};
+  for (const char* text : texts) {
+    lines.begin(0, 3);
+    lines.flow(text, Style::plain);
+  }
+  auto all = lines.finish();
+  if (all.size() > size.height) all.resize(size.height);
+  return all;
 }
 
 std::vector<std::string> plain_lines_of(const State& state, double period) {
   std::vector<std::string> lines;
+  for (const auto& finding : state.findings) {
+    if (finding.level != bridge::Level::ok) lines.push_back("! " + printable(finding.text));
+  }
   const bool is_new_fault = state.malformed && state.malformed->age < period;
-  if (state.cameras.empty() || is_new_fault) lines.push_back(joined(groups_of(state)));
-  for (const auto& camera : state.cameras) lines.push_back(joined(groups_of(camera)));
+  if (state.cameras.empty() || is_new_fault) {
+    auto cells = counts_of(state);
+    cells.insert(cells.begin(), state_of(state.source));
+    for (auto& cell : malformed_of(state)) cells.push_back(cell);
+    lines.push_back("trk monitor  " + joined(cells));
+  }
+  for (const auto& camera : state.cameras) {
+    std::vector<Cell> cells;
+    for (const auto& group : groups_of(camera)) cells.insert(cells.end(), group.cells.begin(), group.cells.end());
+    lines.push_back(joined(cells));
+  }
   return lines;
 }
 

@@ -161,24 +161,37 @@ class MonitorCommand {
  public:
   explicit MonitorCommand(CLI::App& app)
       : command_(app.add_subcommand("monitor",
-                                    "Show live what comes from SOURCE: on a terminal as a screen, which q "
-                                    "ends, else a line a second for every camera")) {
+                                    "Show live what comes from SOURCE and what is wrong with it: on a terminal as a "
+                                    "screen (? shows its keys, q ends it), else a line a second for every camera")) {
     add_source(*command_, url_);
-    add_seconds(*command_, seconds_);
+    add_seconds(*command_, options_.seconds);
+    command_
+        ->add_option("--alarm", alarms_,
+                     "Raise an alarm, as 'loss>1%': bell, first line, exit code 3. May be given several times. "
+                     "Quantities: " +
+                         monitor::alarm_quantities() + ", of the last seconds")
+        ->allow_extra_args(false)
+        ->type_name("LIMIT");
   }
   bool is_asked_for() const { return command_->parsed(); }
 
-  cli::ExitCode run() const {
+  cli::ExitCode run() {
+    for (const auto& text : alarms_) {
+      const auto alarm = monitor::parse_alarm(text);
+      if (!alarm) throw CLI::ValidationError("--alarm: " + alarm.error());
+      options_.alarms.push_back(*alarm);
+    }
     return run_with_source(url_, [this](transport::Source& source) {
-      if (::isatty(STDOUT_FILENO) != 0) return monitor::show_on_screen(source, seconds_, std::cerr);
-      return monitor::show_in_lines(source, seconds_, std::cout, std::cerr);
+      if (::isatty(STDOUT_FILENO) != 0) return monitor::show_on_screen(source, options_, std::cerr);
+      return monitor::show_in_lines(source, options_, std::cout, std::cerr);
     });
   }
 
  private:
   CLI::App* command_;
   std::string url_;
-  std::optional<double> seconds_;
+  std::vector<std::string> alarms_;
+  monitor::Options options_;
 };
 
 class DetectCommand {

@@ -26,9 +26,9 @@ class ModelTest : public testing::Test {
   }
   State state(milliseconds at) { return model.state(begin + at, *feed.source()); }
 
-  Model model;
   test::MemoryFeed feed;
   const Model::Time begin{std::chrono::hours(5)};
+  Model model{begin};
 };
 
 TEST_F(ModelTest, KnowsNothingAtFirst) {
@@ -77,12 +77,46 @@ TEST_F(ModelTest, WithoutACounterEveryRecordIsNew) {
   EXPECT_EQ(camera.latest->encoders.zoom, 5);
 }
 
-TEST_F(ModelTest, AnEqualCounterIsNotNew) {
-  add(test::params(5), milliseconds(0));
-  for (int at = 20; at <= 2000; at += 20) add(test::params(5), milliseconds(at));
+TEST_F(ModelTest, ARecordThatComesTwiceIsNotNew) {
+  for (std::uint64_t n = 0; n < 50; ++n) {
+    add(test::params(n), milliseconds(20 * static_cast<int>(n)));
+    add(test::params(n), milliseconds(20 * static_cast<int>(n) + 1));
+  }
+  const auto s = state(milliseconds(1000));
+  EXPECT_EQ(s.cameras.front().counts.duplicates, 50U);
+  EXPECT_NEAR(s.cameras.front().rate.value(), 50, 1e-9);
+}
+
+TEST_F(ModelTest, ACounterThatStandsStillIsAFindingAndNoSilence) {
+  for (int at = 0; at <= 2000; at += 20) add(test::params(5), milliseconds(at));
+  add(test::constants(), milliseconds(2000));
   const auto s = state(milliseconds(2000));
-  EXPECT_NEAR(s.cameras.front().latest->age, 2, 1e-9);
-  EXPECT_TRUE(s.cameras.front().latest->is_silent);
+  EXPECT_FALSE(s.cameras.front().latest->is_silent);
+  EXPECT_EQ(s.findings.front().condition, bridge::Condition::uncounted);
+  EXPECT_THAT(s.findings.front().text, testing::HasSubstr("the counter stands still"));
+}
+
+TEST_F(ModelTest, AfterAResetNothingIsKnownOfBefore) {
+  for (std::uint64_t n = 0; n < 10; ++n) add(test::params(2 * n), milliseconds(20 * static_cast<int>(n)));
+  EXPECT_EQ(state(milliseconds(200)).findings.front().condition, bridge::Condition::lost);
+  const auto source = feed.source();
+  feed.put(test::params(1));
+  transport::Reception reception;
+  ASSERT_EQ(source->receive(reception, {}), transport::Event::sample);
+  Model fresh(begin + milliseconds(200), source->statistics());
+  const auto s = fresh.state(begin + milliseconds(300), *source);
+  EXPECT_TRUE(s.cameras.empty());
+  EXPECT_EQ(s.source.records, 0U);
+  EXPECT_NEAR(s.age, 0.1, 1e-9);
+}
+
+TEST_F(ModelTest, AStateThatIsHeldStaysAsItIs) {
+  add(test::params(1), milliseconds(20));
+  const auto live = state(milliseconds(20));
+  const auto kept = held(live);
+  add(test::params(2), milliseconds(40));
+  EXPECT_EQ(live.cameras.front().history->newest(), 40'000'000) << "it is the model's";
+  EXPECT_EQ(kept.cameras.front().history->newest(), 20'000'000);
 }
 
 TEST_F(ModelTest, SilenceIsMoreThanASecondAndThreeIntervals) {

@@ -1,0 +1,34 @@
+// What a user wants to be alarmed about: `loss>1%`.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "model.h"
+
+namespace trk_bridge::monitor {
+
+/// One limit of one quantity.
+struct Alarm {
+  std::string text;  ///< as it was written
+  std::size_t quantity = 0;
+  bool is_above = true;  ///< it is raised above the limit, else below
+  double limit = 0;      ///< in the quantity's unit
+};
+
+/// QUANTITY, `>` or `<`, NUMBER and the unit, which may be left out: `loss>1%`, `rate<49.5`, `jitter>2ms`,
+/// `silence>0.5s`, `malformed>0`, `drops>0`. The error names the part, its value and what is allowed.
+tl::expected<Alarm, std::string> parse_alarm(std::string_view);
+/// "loss (%), rate (Hz), …": for help texts.
+std::string alarm_quantities();
+
+/// Those that are raised, for each camera: findings of the level error. Loss, malformed records and drops are those of
+/// the last seconds (Model::looks_back), the rate and the jitter (99th percentile) those of the window of arrivals,
+/// which has to hold a second. A camera that is silent has the rate 0; before there is any camera, the source is
+/// silent.
+std::vector<bridge::Finding> raised(const std::vector<Alarm>&, const State&);
+
+}  // namespace trk_bridge::monitor

@@ -1,0 +1,43 @@
+#include "kernel_counters.h"
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace trk_bridge::monitor {
+namespace {
+
+/// Of a file with pairs of lines: `group: name name …`, then `group: number number …`.
+std::uint64_t counter_in(const char* path, const std::string& group, const std::string& name) {
+  std::ifstream file(path);
+  std::string names, numbers;
+  while (std::getline(file, names) && std::getline(file, numbers)) {
+    std::istringstream heads(names), values(numbers);
+    std::string head, value;
+    if (!(heads >> head) || head != group || !(values >> value)) continue;
+    while (heads >> head && values >> value) {
+      if (head == name) return std::stoull(value);
+    }
+  }
+  return 0;
+}
+
+/// Of a file with a `name number` a line.
+std::uint64_t counter_in(const char* path, const std::string& name) {
+  std::ifstream file(path);
+  std::string head;
+  std::uint64_t value = 0;
+  while (file >> head >> value) {
+    if (head == name) return value;
+  }
+  return 0;
+}
+
+}  // namespace
+
+KernelCounters read_kernel_counters() {
+  return {counter_in("/proc/self/net/snmp", "Udp:", "NoPorts") + counter_in("/proc/self/net/snmp6", "Udp6NoPorts"),
+          counter_in("/proc/self/net/netstat", "TcpExt:", "IPReversePathFilter")};
+}
+
+}  // namespace trk_bridge::monitor

@@ -1,0 +1,79 @@
+#include "recording.h"
+
+#include <variant>
+
+#include "cli/arguments.h"
+
+namespace trk_bridge::monitor {
+
+/// The first loss, whichever thread met it.
+struct RecordingTrouble {
+  std::mutex mutex;
+  std::string text;
+};
+
+namespace {
+
+constexpr const char* url = "file:take-%Y%m%d-%H%M%S.trk";
+
+std::string trouble_in(RecordingTrouble& trouble) {
+  const std::lock_guard<std::mutex> lock(trouble.mutex);
+  return trouble.text;
+}
+
+}  // namespace
+
+std::string Recording::begin(const CameraState& camera) {
+  const std::string who = "id " + std::to_string(camera.key.id);
+  if (!camera.latest) return "not recorded: no parameters of " + who + " have come";
+  if (!camera.latest->lens && camera.latest->lens.error() == camera::CameraReason::no_lens) {
+    return "not recorded: " + who + " has no lens, and a take has one";
+  }
+  if (!camera.constants) return "not recorded: no constants of " + who + " have come, and a take begins with them";
+  key_ = camera.key;
+  trouble_ = std::make_shared<RecordingTrouble>();
+  bridge::OutletOptions options;
+  options.feed = bridge::Feed::one_camera;
+  options.listener = [trouble = trouble_](const bridge::Loss& loss) {
+    const std::lock_guard<std::mutex> lock(trouble->mutex);
+    if (trouble->text.empty()) {
+      trouble->text = std::visit([](const auto& cause) { return describe(cause); }, loss.cause);
+    }
+  };
+  outlet_ = std::make_unique<bridge::Outlet>(cli::sink_from(url), options);
+  auto constants = *camera.constants;
+  constants.id = key_.id;
+  outlet_->write(constants);
+  return "recording " + who;
+}
+
+void Recording::add(const transport::Sample& sample) {
+  if (!outlet_ || !(sample.sender == key_.sender)) return;
+  if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) {
+    if (params->id == key_.id && sample.has_lens) outlet_->write(*params, {sample.arrival, sample.time_code});
+  } else if (const auto* constants = std::get_if<wire::CameraConstants>(&sample.record)) {
+    if (constants->id == key_.id) outlet_->write(*constants);
+  }
+}
+
+std::string Recording::status() const {
+  if (!outlet_) return {};
+  const auto state = outlet_->state();
+  std::string text = "recording " + state.name + ", " + std::to_string(outlet_->statistics().sent.params) + " records";
+  if (!state.cannot_open.empty()) text += ": " + state.cannot_open;
+  if (const auto trouble = trouble_in(*trouble_); !trouble.empty()) text += ": " + trouble;
+  return text;
+}
+
+std::string Recording::end() {
+  if (!outlet_) return {};
+  const auto closed = outlet_->close();
+  const std::string name = outlet_->state().name;
+  const auto params = outlet_->statistics().sent.params;
+  const auto trouble = trouble_in(*trouble_);
+  outlet_.reset();
+  if (!closed) return "not recorded: " + name + ": " + transport::describe(closed.error());
+  return "recorded " + name + ", " + std::to_string(params) + " records" + (trouble.empty() ? "" : ": " + trouble);
+}
+
+}  // namespace trk_bridge::monitor
