@@ -36,8 +36,9 @@ std::uint64_t counter_in(const char* path, const std::string& name) {
 }  // namespace
 
 KernelCounters read_kernel_counters() {
-  return {counter_in("/proc/self/net/snmp", "Udp:", "NoPorts") + counter_in("/proc/self/net/snmp6", "Udp6NoPorts"),
-          counter_in("/proc/self/net/netstat", "TcpExt:", "IPReversePathFilter")};
+  return {counter_in("/proc/thread-self/net/snmp", "Udp:", "NoPorts") +
+              counter_in("/proc/thread-self/net/snmp6", "Udp6NoPorts"),
+          counter_in("/proc/thread-self/net/netstat", "TcpExt:", "IPReversePathFilter")};
 }
 
 }  // namespace trk_bridge::monitor

@@ -4,14 +4,18 @@
 // and no test waits for a clock.
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "monitor/model.h"
+#include "network_namespace.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "udp.h"
 
@@ -232,6 +236,47 @@ TEST(TenFaults, Eight_ASenderOnAnotherInterface) {
   EXPECT_FIRST(state, other_interface,
                AllOf(HasSubstr("nothing comes to udp port " + std::to_string(studio.port()) + " on 127.0.0.2, but "),
                      HasSubstr("another interface, address or port")));
+}
+
+/// A machine with two interfaces, and a tracker with two. Throws where there are no network namespaces.
+struct TwoNetworks {
+  test::NetworkNamespace studio, tracker;
+
+  TwoNetworks() {
+    studio.ip("link add one type veth peer name one netns " + tracker.path() +
+              "\nlink add two type veth peer name two netns " + tracker.path());
+    for (const auto* side : {&studio, &tracker}) {
+      const std::string last = side == &studio ? ".1/24" : ".2/24";
+      side->ip("addr add 10.77.1" + last + " dev one\naddr add 10.77.2" + last +
+               " dev two\nlink set one up\nlink set two up");
+    }
+    // The filter drops the question for the address, too.
+    studio.ip("link set one address 02:00:00:00:01:01");
+    tracker.ip("neigh add 10.77.1.1 lladdr 02:00:00:00:01:01 dev one nud permanent");
+    const test::NetworkNamespace::Stay stay(studio);
+    std::ofstream filter("/proc/sys/net/ipv4/conf/all/rp_filter");
+    if (!(filter << 1 << std::flush)) throw std::runtime_error("rp_filter cannot be set");
+  }
+};
+
+TEST(TenFaults, Eight_ASenderWhoseWayBackIsAnotherInterface) {
+  std::unique_ptr<TwoNetworks> networks;
+  try {
+    networks = std::make_unique<TwoNetworks>();
+  } catch (const std::runtime_error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  std::unique_ptr<test::PlainSocket> sender;
+  {
+    const test::NetworkNamespace::Stay stay(networks->tracker);
+    sender = std::make_unique<test::PlainSocket>("10.77.2.2");
+  }
+  const test::NetworkNamespace::Stay stay(networks->studio);
+  Studio studio("", "10.77.1.1");
+  const auto state = watched(studio, Condition::other_interface, 20 * ms, [&](std::uint64_t n, std::int64_t) {
+    sender->send(test::datagram(test::params(n, 7)), "10.77.1.1", studio.port());
+  });
+  EXPECT_FIRST(state, other_interface, HasSubstr("through another interface (reverse path filter)"));
 }
 
 TEST(TenFaults, Nine_LossOnTheWay) {
