@@ -221,13 +221,13 @@ std::vector<Cell> summary_of(const CameraState& camera) {
   if (!camera.latest) return cells;
   cells.push_back(trouble("lost", camera.counts.lost));
   const auto turned = angles(*camera.latest).cells;
-  cells.insert(cells.end(), turned.begin(), turned.end());
   cells.push_back(words(motion_of(camera)));
+  cells.insert(cells.end(), turned.begin(), turned.end());
   return cells;
 }
 
 std::string motion_of(const CameraState& camera) {
-  if (!camera.latest || camera.latest->is_silent || camera.rest.motion == Motion::unknown) return "motion not known";
+  if (!camera.latest || camera.latest->is_silent || camera.rest.motion == Motion::unknown) return "noise -";
   return camera.rest.motion == Motion::moving ? "moving" : "at rest";
 }
 

@@ -32,7 +32,7 @@ std::vector<Cell> malformed_of(const State&);
 std::vector<Group> groups_of(const CameraState&);
 /// One line of a camera among others.
 std::vector<Cell> summary_of(const CameraState&);
-/// Whether the camera is at rest, for its noise; moving; or not known.
+/// "at rest", "moving", "noise -" where it is not known.
 std::string motion_of(const CameraState&);
 
 /// With a fixed number of decimals and no -0; in the form 1e+10 when it is large.

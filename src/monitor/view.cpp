@@ -208,7 +208,9 @@ std::vector<Line> charts(const CameraState& camera, const Choice& choice, std::s
   const auto end = camera.history->newest() + static_cast<std::int64_t>(camera.latest->age * 1e9);
 
   std::vector<std::string> text;
+  std::vector<std::size_t> titles;
   for (std::size_t i = 0; i < plots; ++i) {
+    titles.push_back(text.size());
     const auto value = static_cast<Value>((static_cast<std::size_t>(choice.plotted) + i) % value_count);
     const auto& [name, unit, decimals, least_range] = text_of(value);
     const std::size_t share = (rows - text.size()) / (plots - i);
@@ -225,7 +227,9 @@ std::vector<Line> charts(const CameraState& camera, const Choice& choice, std::s
   for (std::size_t row = 0; row < rows; ++row) {
     std::string line = fitted(row < text.size() ? text[row] : "", left);
     if (has_histogram && row < bars.size()) line += std::string(gap, ' ') + bars[row];
-    lines.push_back(text_line(line.substr(0, width)));
+    const bool is_title = std::find(titles.begin(), titles.end(), row) != titles.end();
+    const std::size_t bold = is_title ? std::min(left, width) : 0;
+    lines.push_back({{line.substr(0, bold), Style::heading}, {line.substr(bold, width - bold), Style::plain}});
   }
   return lines;
 }
@@ -329,25 +333,27 @@ std::vector<Line> screen_of(const State& state, const Choice& choice, Size size)
 }
 
 std::vector<Line> help_screen(Size size) {
+  // Eight lines of 40 characters say what the keys do.
   static constexpr const char* texts[] = {
-      "?  help             q  quit",
-      "p  pause: what is shown stays, records are still received",
-      "r  reset: counts, plots and findings begin again",
-      "n  next camera      N  the one before",
-      "v  next value       V  the one before (plots)",
-      "t  time of plots: 10, 30, 60 s",
-      "R  record the camera as a take; again: end it",
-      "a  axis check: moves the camera step by step",
+      "?  help           q  quit",
+      "p  pause          r  reset",
+      "n  next camera    N  previous camera",
+      "v  next plot      V  previous plot",
+      "t  plots of 10, 30 or 60 s",
+      "R  record a take; again: end it",
+      "a  axis check; space: its next step",
+      "Any key goes back.",
       "",
-      "Angles in degrees, pan to the left, tilt upwards, roll clockwise as the operator sees it.",
-      "Position in metres, studio frame: x right wall, y back wall, z up.",
-      "lens: image distance.  fov h: horizontal field of view without distortion.",
+      "Lines with ! need attention; the first one is the most important.",
+      "The line above the keys names what has no room in this terminal.",
+      "Pause: what is shown stays; records are still received, and recorded.",
+      "Reset: counts, findings and plots begin again.",
+      "Position: x to the right wall, y to the back wall, z up, studio frame.",
+      "Angles: pan to the left, tilt upwards, roll clockwise as the operator sees it.",
+      "lens: image distance. fov h: horizontal field of view without distortion.",
       "jitter, p99, worst: how far intervals are from the median one.",
       "noise: standard deviation while the camera is at rest.",
-      "Lines with ! need attention; the first one is the most important.",
-      "The lowest line above the keys names what has no room in this terminal.",
-      "",
-      "Any key goes back."};
+  };
   Lines lines(size.width);
   if (size.width == 0) return {};
   for (const char* text : texts) {
@@ -355,7 +361,10 @@ std::vector<Line> help_screen(Size size) {
     lines.flow(text, Style::plain);
   }
   auto all = lines.finish();
-  if (all.size() > size.height) all.resize(size.height);
+  if (all.size() > size.height) {
+    all.resize(size.height);
+    if (size.height > 8) all.back() = text_line(std::string("hidden: more help").substr(0, size.width), Style::heading);
+  }
   return all;
 }
 

@@ -243,7 +243,7 @@ TEST(TrkMonitor, HasKeys) {
       monitor.shows([](const std::string& text) { return has(text, "pan (deg), last 30 s"); }, std::ref(tracker)));
 
   monitor.type('?');
-  ASSERT_TRUE(monitor.shows("p  pause: ")) << monitor.screen.text();
+  ASSERT_TRUE(monitor.shows("p  pause          r  reset")) << monitor.screen.text();
   monitor.type('p');
   ASSERT_TRUE(monitor.shows([](const std::string& text) { return has(text, "trk monitor  receiving"); }))
       << "any key goes back, and does nothing else";

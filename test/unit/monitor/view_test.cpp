@@ -231,6 +231,14 @@ TEST(View, SaysWhenItIsPausedAndGuides) {
                                    HasSubstr("\nspace: next step  a: end")));
 }
 
+TEST(View, TheHelpOfEveryKeyHasRoomInASmallTerminal) {
+  const auto small = plain(help_screen({40, 10}));
+  EXPECT_THAT(joined(small), AllOf(HasSubstr("?  help"), HasSubstr("q  quit"), HasSubstr("a  axis check")));
+  EXPECT_THAT(small, testing::Contains("Any key goes back."));
+  EXPECT_EQ(small.back(), "hidden: more help");
+  EXPECT_THAT(joined(plain(help_screen({80, 24}))), AllOf(HasSubstr("noise: "), Not(HasSubstr("hidden"))));
+}
+
 TEST(View, HasTheTimeCode) {
   State state = state_with(1);
   state.cameras.front().latest->time_code = base::CountedTimeCode{{10, 20, 30, 12, 1, true}, 59.94};
@@ -277,7 +285,7 @@ TEST(View, TellsTrouble) {
   state.cameras[1].latest->origin = "binary identified_lp64";
   text = joined(text_of(state, {200, 60}, choice));
   EXPECT_THAT(text, HasSubstr("> id 2  SILENT for 12 s  192.0.2.7:50123  counter 1234567\n"));
-  EXPECT_THAT(text, HasSubstr("motion not known"));
+  EXPECT_THAT(text, HasSubstr("\n  noise -\n"));
   EXPECT_THAT(text, HasSubstr("binary identified_lp64: euler studio_z_up"));
   EXPECT_THAT(text, HasSubstr("shift_on_chip and unknown bits"));
 }
