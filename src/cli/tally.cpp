@@ -4,6 +4,8 @@
 #include <tuple>
 #include <variant>
 
+#include "trk_bridge/wire/fields.h"
+
 namespace trk_bridge::cli {
 namespace {
 
@@ -31,10 +33,10 @@ std::optional<base::Order> Tally::add(const transport::Sample& sample) {
       return std::nullopt;
     }
     // Without counters, every record is new.
-    const auto use = sample.has_counter ? base::CounterUse::strict : base::CounterUse::ignore;
+    const auto use = sample.has_counter ? base::CounterUse::automatic : base::CounterUse::ignore;
     camera = cameras_.try_emplace(key, assumed_field_rate, use).first;
   }
-  return camera->second.judge(params->counter);
+  return camera->second.judge(params->counter, wire::fingerprint(*params));
 }
 
 void Tally::summarise(const transport::SourceStatistics& source, std::ostream& out) const {

@@ -42,6 +42,17 @@ TEST_F(DumpTest, ALineARecordAndTheSummaryByCameraAndSender) {
   EXPECT_THAT(err.str(), HasSubstr("id 8 from 127.0.0.1:6000: 1 accepted, 0 lost"));
 }
 
+TEST_F(DumpTest, FreshRecordsWhoseCounterDoesNotCountAreAccepted) {
+  for (int n = 0; n < 100; ++n) {
+    auto params = test::params(static_cast<std::uint64_t>(n % 25), 7);
+    params.euler.pan = n;
+    feed.put(params);
+  }
+  feed.put(transport::Event::ended);
+  EXPECT_EQ(run(), cli::exit_good);
+  EXPECT_THAT(err.str(), HasSubstr("100 accepted, 0 lost, 0 duplicate, 0 out of order"));
+}
+
 TEST_F(DumpTest, MalformedInputIsALineOnStandardErrorOnly) {
   feed.put_malformed(wire::Reason::bad_magic);
   feed.put(test::params(1));
