@@ -94,8 +94,8 @@ class Pages:
 
     def _check_reached(self):
         index = self.root / "doc" / "README.md"
-        for page in self.pages[1:]:
-            if page != index and page not in self.reached[index]:
+        for page in self.pages:
+            if page.parent == index.parent and page != index and page not in self.reached[index]:
                 self.faults.append(f"{page.relative_to(self.root)}: doc/README.md does not lead to it")
         used = set().union(*self.reached.values())
         for picture in sorted((self.root / "doc" / "images").glob("*")):
