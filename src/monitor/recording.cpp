@@ -1,27 +1,33 @@
 #include "recording.h"
 
+#include <mutex>
 #include <variant>
 
 #include "cli/arguments.h"
 
 namespace trk_bridge::monitor {
 
-/// The first loss, whichever thread met it.
-struct RecordingTrouble {
-  std::mutex mutex;
-  std::string text;
-};
-
 namespace {
 
 constexpr const char* url = "file:take-%Y%m%d-%H%M%S.trk";
 
-std::string trouble_in(RecordingTrouble& trouble) {
-  const std::lock_guard<std::mutex> lock(trouble.mutex);
-  return trouble.text;
-}
-
 }  // namespace
+
+/// The first loss. Any thread.
+struct Recording::Trouble {
+  void note(const bridge::Loss& loss) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (text.empty()) text = std::visit([](const auto& cause) { return describe(cause); }, loss.cause);
+  }
+  std::string first() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return text;
+  }
+
+ private:
+  std::mutex mutex;
+  std::string text;
+};
 
 std::string Recording::begin(const CameraState& camera) {
   const std::string who = "id " + std::to_string(camera.key.id);
@@ -31,15 +37,10 @@ std::string Recording::begin(const CameraState& camera) {
   }
   if (!camera.constants) return "not recorded: no constants of " + who + " have come, and a take begins with them";
   key_ = camera.key;
-  trouble_ = std::make_shared<RecordingTrouble>();
+  trouble_ = std::make_shared<Trouble>();
   bridge::OutletOptions options;
   options.feed = bridge::Feed::one_camera;
-  options.listener = [trouble = trouble_](const bridge::Loss& loss) {
-    const std::lock_guard<std::mutex> lock(trouble->mutex);
-    if (trouble->text.empty()) {
-      trouble->text = std::visit([](const auto& cause) { return describe(cause); }, loss.cause);
-    }
-  };
+  options.listener = [trouble = trouble_](const bridge::Loss& loss) { trouble->note(loss); };
   outlet_ = std::make_unique<bridge::Outlet>(cli::sink_from(url), options);
   auto constants = *camera.constants;
   constants.id = key_.id;
@@ -61,7 +62,7 @@ std::string Recording::status() const {
   const auto state = outlet_->state();
   std::string text = "recording " + state.name + ", " + std::to_string(outlet_->statistics().sent.params) + " records";
   if (!state.cannot_open.empty()) text += ": " + state.cannot_open;
-  if (const auto trouble = trouble_in(*trouble_); !trouble.empty()) text += ": " + trouble;
+  if (const auto trouble = trouble_->first(); !trouble.empty()) text += ": " + trouble;
   return text;
 }
 
@@ -70,7 +71,7 @@ std::string Recording::end() {
   const auto closed = outlet_->close();
   const std::string name = outlet_->state().name;
   const auto params = outlet_->statistics().sent.params;
-  const auto trouble = trouble_in(*trouble_);
+  const auto trouble = trouble_->first();
   outlet_.reset();
   if (!closed) return "not recorded: " + name + ": " + transport::describe(closed.error());
   return "recorded " + name + ", " + std::to_string(params) + " records" + (trouble.empty() ? "" : ": " + trouble);

@@ -1,9 +1,7 @@
 // A take of one camera, recorded while it is watched.
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "bridge/outlet.h"
@@ -28,9 +26,11 @@ class Recording {
   std::string end();
 
  private:
+  struct Trouble;
+
   cli::Tally::Key key_;
   std::unique_ptr<bridge::Outlet> outlet_;
-  std::shared_ptr<struct RecordingTrouble> trouble_;
+  std::shared_ptr<Trouble> trouble_;  // the outlet's thread may outlive it
 };
 
 }  // namespace trk_bridge::monitor

@@ -255,6 +255,45 @@ std::string joined(const std::vector<Cell>& cells) {
   return line;
 }
 
+void append(std::vector<Line>& to, std::vector<Line> lines) {
+  std::move(lines.begin(), lines.end(), std::back_inserter(to));
+}
+
+/// The chosen camera, the others and the charts, below what is on the screen already. A line is left for the names of
+/// what is hidden.
+void add_cameras(const State& state, const Choice& choice, Size size, std::vector<Line>& screen,
+                 std::vector<std::string>& hidden) {
+  const std::size_t at = chosen(state, choice);
+  const auto& camera = state.cameras[at];
+  const std::size_t others = state.cameras.size() - 1;
+  auto block = block_of(camera, size.width, others > 0);
+
+  const bool has_histogram = size.width >= fewest_columns_with_histogram;
+  const std::size_t room = size.height - screen.size();
+  const bool has_room_for_all =
+      hidden.empty() && has_histogram && block.lines.size() + others + fewest_plot_rows <= room;
+  const std::size_t usable = has_room_for_all ? room : room - 1;
+  const std::size_t shown_others =
+      std::min(others, std::max(usable / 3, usable - std::min(usable, block.lines.size())));
+  for (auto& name : block.cut(usable - shown_others)) hidden.push_back(std::move(name));
+  append(screen, std::move(block.lines));
+  for (std::size_t i = 0, shown = 0; shown < shown_others; ++i) {
+    if (i == at) continue;
+    screen.push_back(summary_line(state.cameras[i], size.width));
+    ++shown;
+  }
+  if (shown_others < others) hidden.push_back(plural(others - shown_others, "camera"));
+
+  if (!camera.latest || !camera.history) return;
+  const std::size_t left = size.height - screen.size() - (has_room_for_all ? 0 : 1);
+  if (left < fewest_plot_rows) {
+    hidden.emplace_back("plots");
+    return;
+  }
+  append(screen, charts(camera, choice, size.width, left));
+  if (!has_histogram) hidden.emplace_back("histogram");
+}
+
 }  // namespace
 
 std::size_t chosen(const State& state, const Choice& choice) {
@@ -269,11 +308,6 @@ std::size_t chosen(const State& state, const Choice& choice) {
 std::vector<Line> screen_of(const State& state, const Choice& choice, Size size) {
   if (size.width == 0 || size.height == 0) return {};
   std::vector<std::string> hidden;
-  const auto append = [](std::vector<Line>& to, std::vector<Line> lines) {
-    std::move(lines.begin(), lines.end(), std::back_inserter(to));
-  };
-
-  // The first finding comes whole before anything else does.
   auto screen = head_of(state, choice, size.width);
   screen.resize(std::min(screen.size(), std::max<std::size_t>(1, size.height / 5)));
   auto findings = findings_of(state, choice, size.width);
@@ -284,51 +318,16 @@ std::vector<Line> screen_of(const State& state, const Choice& choice, Size size)
     hidden.emplace_back("findings");
   }
   append(screen, std::move(findings));
-  if (screen.size() >= size.height) {
-    screen.resize(size.height);
-    return screen;
-  }
-  const bool has_keys = size.height >= fewest_rows_with_keys;
-  std::size_t room = size.height - screen.size() - (has_keys ? 1 : 0);
 
-  if (!state.cameras.empty()) {
-    const std::size_t at = chosen(state, choice);
-    const auto& camera = state.cameras[at];
-    const std::size_t others = state.cameras.size() - 1;
-    auto block = block_of(camera, size.width, others > 0);
-    const bool has_room_for_all = block.lines.size() + others + (hidden.empty() ? 0 : 1) <= room;
-    // The line that names what is hidden.
-    const std::size_t usable = has_room_for_all || !has_keys ? room : room - std::min<std::size_t>(room, 1);
-    const std::size_t shown_others =
-        std::min(others, std::max(usable / 3, usable - std::min(usable, block.lines.size())));
-    for (auto& name : block.cut(usable - shown_others)) hidden.push_back(std::move(name));
-    append(screen, std::move(block.lines));
-    for (std::size_t i = 0, shown = 0; i < state.cameras.size() && shown < shown_others; ++i) {
-      if (i == at) continue;
-      screen.push_back(summary_line(state.cameras[i], size.width));
-      ++shown;
-    }
-    if (shown_others < others) hidden.push_back(plural(others - shown_others, "camera"));
-
-    room = size.height - screen.size() - (has_keys ? 1 : 0);
-    const std::size_t for_hidden = hidden.empty() && size.width >= fewest_columns_with_histogram ? 0 : 1;
-    if (camera.latest && camera.history && room >= fewest_plot_rows + for_hidden) {
-      append(screen, charts(camera, choice, size.width, room - for_hidden));
-      if (size.width < fewest_columns_with_histogram) hidden.emplace_back("histogram");
-    } else if (camera.history) {
-      hidden.emplace_back("plots");
-    }
-  }
-  const std::size_t last = size.height - (has_keys ? 1 : 0);
+  const std::size_t last = size.height - (size.height < fewest_rows_with_keys ? 0 : 1);
+  if (!state.cameras.empty() && screen.size() < last) add_cameras(state, choice, {size.width, last}, screen, hidden);
   if (!hidden.empty() && screen.size() < last) {
     screen.resize(last - 1);
     const std::string text = "hidden: " + listed(hidden, size.width - std::min<std::size_t>(size.width, 8));
     screen.push_back(text_line(text.substr(0, size.width), Style::heading));
   }
-  if (has_keys) {
-    screen.resize(last);
-    screen.push_back(keys_line(size.width, !choice.guide.empty()));
-  }
+  screen.resize(last < size.height ? last : std::min(screen.size(), last));
+  if (last < size.height) screen.push_back(keys_line(size.width, !choice.guide.empty()));
   return screen;
 }
 
