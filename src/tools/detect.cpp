@@ -54,8 +54,8 @@ bool operator<(const Place& a, const Place& b) { return std::tie(a.port, a.host)
 struct Reading {
   const Scheme* scheme;
   Detection::Reading way;
-  monitor::Model model;
-  std::map<cli::Tally::Key, Motion, cli::Tally::Less> motions;
+  monitor::Model model{Clock::now()};
+  std::map<cli::Tally::Key, Motion, cli::Tally::Less> motions{};
 };
 
 transport::Fault unknown_protocol() noexcept {
@@ -69,7 +69,7 @@ class AnyDecoder final : public transport::Decoder {
   AnyDecoder() {
     for (const Scheme* scheme : endpoints::schemes()) {
       if (scheme->detection == nullptr) continue;
-      for (auto& way : scheme->detection->readings()) readings_.push_back({scheme, std::move(way), {}, {}});
+      for (auto& way : scheme->detection->readings()) readings_.emplace_back(Reading{scheme, std::move(way)});
     }
   }
 

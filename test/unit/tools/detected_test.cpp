@@ -21,8 +21,8 @@ using testing::Not;
 Detected found(const wire::CameraParams& first, const wire::CameraParams& last, bool with_constants = true) {
   using std::chrono::seconds;
   const test::MemoryFeed feed;
-  monitor::Model model;
   const monitor::Model::Time begin{std::chrono::hours(1)};
+  monitor::Model model(begin);
   Detected one;
   one.protocol = "trk";
   one.place = "udp port 7000 on every interface";
