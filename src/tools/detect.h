@@ -20,7 +20,4 @@ struct DetectOptions {
 /// CLI::ValidationError for a place that is none.
 cli::ExitCode detect(const DetectOptions&, std::ostream& out, std::ostream& err);
 
-/// The usual places, a line each: port, group, protocol, whose default it is.
-void list_usual_places(std::ostream& out);
-
 }  // namespace trk_bridge::tools

@@ -2,18 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include <rapidjson/stringbuffer.h>
 #include <rapidjson/writer.h>
 
+#include "monitor/text.h"
 #include "trk_bridge/camera/camera.h"
 #include "trk_bridge/camera/image.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::tools {
 namespace {
+
+using monitor::fixed;
 
 // What one expects of a camera in a studio.
 constexpr double farthest = 200;               // m from the origin
@@ -32,14 +34,6 @@ void extend(Motion::Range& range, double value) {
 
 /// The angle nearest to `last` among those that are the same turn.
 double unwrapped(double angle, double last) { return last + std::remainder(angle - last, full_turn); }
-
-std::string fixed(double value, int decimals) {
-  char text[64];
-  // No -0.00.
-  if (std::abs(value) * 2 < std::pow(10.0, -decimals)) value = 0;
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
 
 std::string text_of(const Motion::Range& range, int decimals) {
   const std::string least = fixed(range.least, decimals), most = fixed(range.most, decimals);

@@ -22,6 +22,7 @@
 #include "cli/option_text.h"
 #include "cli/stop_signals.h"
 #include "detect.h"
+#include "detect_places.h"
 #include "dump.h"
 #include "endpoint_help.h"
 #include "endpoints/presets.h"
@@ -202,7 +203,7 @@ class DetectCommand {
                          "Where to listen, also GROUP:PORT; default: every port and group that is usual");
     command_->add_option("--seconds", options_.seconds, "Listen for S seconds")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber)
+        ->check(cli::positive_number())
         ->type_name("S");
     auto* json = command_->add_flag("--json", options_.json, "A JSON object for each camera");
     command_->add_flag("--list", lists_, "List the usual ports and groups instead")->excludes(json);
@@ -211,10 +212,9 @@ class DetectCommand {
 
   cli::ExitCode run() const {
     if (!lists_) return detect(options_, std::cout, std::cerr);
-    list_usual_places(std::cout);
-    if (std::cout.flush()) return cli::exit_good;
-    std::cerr << "trk: error: the list could not be written to standard output\n";
-    return cli::exit_failed;
+    cli::CheckedOutput out(std::cout);
+    for (const auto& line : usual_place_lines()) out.line(line, false);
+    return out.finish(std::cerr);
   }
 
  private:
@@ -259,9 +259,7 @@ class PresetsCommand {
 
   cli::ExitCode run() const {
     (as_json_ ? list_presets_as_json : list_presets)(endpoints::presets(), std::cout);
-    if (std::cout.flush()) return cli::exit_good;
-    std::cerr << "trk: error: the list could not be written to standard output\n";
-    return cli::exit_failed;
+    return cli::CheckedOutput(std::cout).finish(std::cerr);
   }
 
  private:

@@ -124,6 +124,33 @@ TEST(Detect, NamesWhoSendsWhatToAPort) {
   EXPECT_THAT(result.err, Not(HasSubstr("Free-D with a fault")));
 }
 
+/// Its checksum is right in one of `of` messages, or wrong in one of them.
+std::map<std::string, nlohmann::json> heads_found(std::uint64_t of, bool right) {
+  const test::ReservedPort port;
+  const test::PlainSocket head;
+  const Repeatedly send([&](std::uint64_t round) {
+    std::string message = test::message_of(30, -5, 0, 7);
+    if ((round % of == 0) != right) message.back() = static_cast<char>(message.back() + 1);
+    head.send(message, "127.0.0.1", port.number());
+  });
+  std::map<std::string, nlohmann::json> found;
+  for (const auto& [source, camera] : run({port.text()}).by_source)
+    found[source.substr(source.rfind(':') + 6)] = camera;
+  return found;
+}
+
+TEST(Detect, OfTwoWaysToReadASenderTheOneThatReadsMoreIsTaken) {
+  const auto mostly_wrong = heads_found(5, true);
+  ASSERT_EQ(mostly_wrong.size(), 1u);
+  EXPECT_EQ(mostly_wrong.begin()->first, "?checksum=lenient");
+  EXPECT_THAT(mostly_wrong.begin()->second.at("doubts").dump(), Not(HasSubstr("also sends")))
+      << "the lenient way reads the others as well";
+  const auto mostly_right = heads_found(5, false);
+  ASSERT_EQ(mostly_right.size(), 1u);
+  EXPECT_EQ(mostly_right.begin()->first, "");
+  EXPECT_THAT(mostly_right.begin()->second.at("doubts").dump(), HasSubstr("only checksum=lenient takes"));
+}
+
 TEST(Detect, AMessageThatNobodyCanReadIsNamedWithItsProtocol) {
   const test::ReservedPort port;
   const test::PlainSocket head;
