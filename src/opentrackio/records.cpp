@@ -11,8 +11,15 @@ namespace trk_bridge::opentrackio {
 namespace {
 
 constexpr std::int64_t second = 1'000'000'000;
-// Of those that are no numbers of a source, which a sender may have many of.
-constexpr std::size_t most_sources = 1024;
+// A faulty sender may make up any number of ids.
+constexpr std::size_t most_cameras = 1024;
+
+/// What is remembered of an id. Of too many ids all is forgotten: constants come again.
+template <typename Map>
+auto& bounded(Map& all, std::uint32_t id) {
+  if (all.size() >= most_cameras && all.count(id) == 0) all.clear();
+  return all[id];
+}
 
 // y of the sensor points down, and what is +0 stays so.
 double turned(double value) noexcept { return 0.0 - value; }
@@ -261,8 +268,7 @@ tl::expected<Records, transport::Fault> RecordsReader::read(const Sample& sample
   if (!takes_any_ && (number < 1 || number > highest_source)) {
     return tl::unexpected(fault_of(Reason::source_number, static_cast<int>(Id::source_number)));
   }
-  if (sources_.size() >= most_sources && sources_.count(number) == 0) sources_.clear();
-  Source& source = sources_[number];
+  Source& source = bounded(sources_, number);
   Records records;
   if (sample.is_tangential) records.lost = Lost::tangential;
   if (sample.is_scaled) records.lost = Lost::scale;
@@ -318,7 +324,7 @@ tl::expected<Records, transport::Fault> RecordsReader::read(const Sample& sample
 
 tl::expected<void, transport::Fault> RecordsWriter::use(const wire::CameraConstants& constants) noexcept {
   if (const auto sound = camera::check(constants); !sound) return tl::unexpected(fault_of(sound.error()));
-  Camera& camera = cameras_[constants.id];
+  Camera& camera = bounded(cameras_, constants.id);
   (void)camera.converter.use(constants);
   camera.is_due = true;
   return {};
@@ -346,7 +352,7 @@ tl::expected<Sample, transport::Fault> RecordsWriter::sample_of(
     const std::optional<base::CountedTimeCode>& time_code) noexcept {
   const std::uint32_t number = settings_.source != 0 ? settings_.source : params.id;
   if (number < 1 || number > highest_source) return tl::unexpected(fault_of(Reason::no_source_number));
-  Camera& camera = cameras_[params.id];
+  Camera& camera = bounded(cameras_, params.id);
   const camera::Converted converted = camera.converter.convert(params);
   if (const auto why = camera::why_no_camera(converted)) return tl::unexpected(fault_of(*why));
   if (!converted.params) return tl::unexpected(fault_of(converted.params.error()));
