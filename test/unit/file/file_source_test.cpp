@@ -4,21 +4,16 @@
 #include <filesystem>
 #include <string>
 #include <thread>
-#include <utility>
 #include <variant>
 #include <vector>
 
-#include <fcntl.h>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "bytes_read.h"
 #include "error_of.h"
 #include "file/scheme.h"
-#include "temporary_directory.h"
+#include "play_file.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
@@ -41,25 +36,6 @@ constexpr std::int64_t field = 20'000'000;  // ns at 50 Hz
 constexpr std::int64_t day = 86'400'000'000'000;
 // 10:20:30:12:1 at 50 Hz.
 constexpr std::int64_t of_day = (10 * 3600 + 20 * 60 + 30) * 1'000'000'000LL + 24 * field;
-
-class PlayFile : public testing::Test {
- protected:
-  /// A take whose counters are 1..n.
-  SourceSettings take_of(int n) {
-    std::string text = "DMC01\n10:20:30:12:1\n1920 1080 14 2 12 4 27 18 27 18\n";
-    for (int i = 1; i <= n; ++i) text += "1 1 2 3 4 5 6 50 0 0 0 0 5 8 " + std::to_string(i) + "\n";
-    test::write_text(path, text);
-    SourceSettings settings;
-    settings.path = path;
-    return settings;
-  }
-
-  test::TemporaryDirectory directory;
-  const std::string path = directory / "take.trk";
-};
-
-bool is_constants(const Reception& r) { return std::holds_alternative<wire::CameraConstants>(r.sample.record); }
-std::uint64_t counter(const Reception& r) { return std::get<wire::CameraParams>(r.sample.record).counter; }
 
 TEST_F(PlayFile, ConstantsFirstThenEveryFieldThenTheEnd) {
   auto settings = take_of(3);
@@ -339,102 +315,6 @@ TEST_F(PlayFile, ALoopOverATakeThatWasEmptiedEnds) {
     EXPECT_EQ(event, Event::failed);
     EXPECT_EQ(source->statistics().error, path + ": loop=1: it has no parameters to play");
   }
-}
-
-class PlayFifo : public PlayFile {
- protected:
-  PlayFifo() {
-    take = (take_of(3), test::read_text(path));
-    settings.path = path;
-    settings.speed = 0;
-    ::unlink(path.c_str());
-    if (::mkfifo(path.c_str(), 0600) != 0) throw std::runtime_error("no FIFO");
-  }
-  /// As a program that writes and stays.
-  void write(const std::string& text) {
-    if (fd < 0) fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    ASSERT_EQ(::write(fd, text.data(), text.size()), static_cast<ssize_t>(text.size()));
-  }
-  void close() { ::close(std::exchange(fd, -1)); }
-  ~PlayFifo() override {
-    if (fd >= 0) ::close(fd);
-  }
-
-  SourceSettings settings;
-  std::string take;
-  int fd = -1;
-  Reception r;
-};
-
-TEST_F(PlayFifo, LinesArePlayedAsTheyCome) {
-  const auto source = open_source(settings, 50.0);
-  EXPECT_EQ(source->receive(r, 0ns), Event::idle);
-  EXPECT_THAT(source->statistics().waiting_for, HasSubstr("nothing written yet"));
-  const std::size_t cut = take.size() - 10;
-  write(take.substr(0, cut));
-  ASSERT_EQ(source->receive(r, -1ns), Event::sample);
-  EXPECT_TRUE(is_constants(r));
-  for (const std::uint64_t i : {1U, 2U}) {
-    ASSERT_EQ(source->receive(r, 0ns), Event::sample);
-    EXPECT_EQ(counter(r), i);
-  }
-  EXPECT_EQ(source->receive(r, 1ms), Event::idle) << "the third is not whole";
-  write(take.substr(cut));
-  ASSERT_EQ(source->receive(r, 0ns), Event::sample);
-  EXPECT_EQ(counter(r), 3U);
-  write("1 2 3");
-  close();
-  ASSERT_EQ(source->receive(r, -1ns), Event::malformed);
-  EXPECT_THAT(describe(r.fault), HasSubstr("line 7 is cut"));
-  EXPECT_EQ(source->receive(r, -1ns), Event::ended);
-}
-
-TEST_F(PlayFifo, TheFieldsOfALateWriterArePacedFromItsBeginning) {
-  settings.speed = 1;
-  const auto source = open_source(settings, 50.0);
-  EXPECT_EQ(source->receive(r, 100ms), Event::idle);
-  write(take);
-  ASSERT_EQ(source->receive(r, -1ns), Event::sample);
-  const auto begin = Clock::now();
-  for (int i = 0; i < 3; ++i) ASSERT_EQ(source->receive(r, -1ns), Event::sample);
-  EXPECT_GE(Clock::now() - begin, 39ms) << "two fields after the first; the third line is not overdue";
-}
-
-TEST_F(PlayFifo, AReaderThatWaitsForAWriterIsStopped) {
-  const auto source = open_source(settings, 50.0);
-  std::thread stopper([&source] { source->stop(); });
-  EXPECT_EQ(source->receive(r, -1ns), Event::stopped);
-  stopper.join();
-  EXPECT_EQ(source->receive(r, -1ns), Event::stopped);
-}
-
-TEST_F(PlayFifo, AReaderThatWaitsForALineIsStopped) {
-  const auto source = open_source(settings, 50.0);
-  EXPECT_EQ(source->receive(r, 0ns), Event::idle);
-  write("DMC01\n10:20");
-  std::thread stopper([&source] { source->stop(); });
-  EXPECT_EQ(source->receive(r, -1ns), Event::stopped);
-  stopper.join();
-}
-
-TEST_F(PlayFifo, WhatIsWrongIsAnErrorThatNamesTheLine) {
-  const auto error_of = [this](const std::string& text) {
-    const auto source = open_source(settings, 50.0);
-    static_cast<void>(source->receive(r, 0ns));
-    write(text);
-    close();
-    Event event = Event::sample;
-    while (event == Event::sample) event = source->receive(r, -1ns);
-    EXPECT_EQ(event, Event::failed);
-    EXPECT_EQ(source->statistics().state, SourceState::failed);
-    return source->statistics().error;
-  };
-  EXPECT_THAT(error_of("DMC02\n"), HasSubstr(path + ":1: not a take"));
-  EXPECT_THAT(error_of("DMC01\n"), HasSubstr(path + ":2: the file ends where the time code"));
-  EXPECT_THAT(error_of(take + "oops\n"), HasSubstr(path + ":7: "));
-  EXPECT_THAT(error_of("DMC01\n10:20:30:49:1\n1920 1080 14 2 12 4 27 18 27 18\n"), HasSubstr("10:20:30:49:1"));
-  settings.loop = true;
-  EXPECT_THROW(static_cast<void>(open_source(settings, 50.0)), TransportError);
 }
 
 TEST_F(PlayFile, WhatCannotBePlayedIsRefusedAtOpening) {
