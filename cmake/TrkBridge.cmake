@@ -19,7 +19,7 @@ target_compile_options(trk_bridge_options INTERFACE -Wall -Wextra -Wpedantic -Wc
   -fno-semantic-interposition
   $<$<BOOL:${TRK_BRIDGE_WERROR}>:-Werror>)
 
-# trk_bridge_library(TARGET SOURCE... [PLUGIN] [EXPORT_AS NAME] [PUBLIC LIB...] [PRIVATE LIB...]): a room's library, shared
+# trk_bridge_library(TARGET SOURCE... [PLUGIN] [EXPORT_AS NAME] [PUBLIC LIB...] [PRIVATE LIB...]): a module's library, shared
 # and installed. With EXPORT_AS it is the target trk_bridge::NAME, for other projects as well. The binary interface is that
 # of a minor version; a PLUGIN, which ROS loads by its file name, has none.
 function(trk_bridge_library name)

@@ -1,4 +1,4 @@
-// YAML that a person wrote: what is wrong with it, with the line. For rooms that use yaml-cpp.
+// Reads YAML files that people write, with faults that name the line. For modules that use yaml-cpp.
 #pragma once
 
 #include <algorithm>

@@ -55,7 +55,7 @@ std::optional<double> loss_between(const base::SequenceCounts& before, const bas
 
 }  // namespace
 
-State held(State state) {
+State frozen(State state) {
   for (auto& camera : state.cameras) {
     if (camera.history) camera.history = std::make_shared<History>(*camera.history);
   }

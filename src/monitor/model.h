@@ -55,7 +55,7 @@ struct CameraState {
   Rest rest;
   std::optional<double> loss;           ///< percent of this id's records within the last seconds
   std::vector<std::int64_t> intervals;  ///< ns, over the window of arrivals
-  /// For plots; null where there is none. Of the model, for as long as nothing is added: see held().
+  /// For plots; null where there is none. Of the model, for as long as nothing is added: see frozen().
   std::shared_ptr<const History> history;
 };
 
@@ -70,8 +70,8 @@ struct State {
   std::uint64_t not_shown = 0;                           ///< records of more cameras than cli::Tally::most_cameras
   std::uint64_t recent_malformed = 0, recent_drops = 0;  ///< within the last seconds; drops: of the kernel
 };
-/// A state that stays as it is whatever becomes of its model.
-State held(State);
+/// A copy that does not change with the model.
+State frozen(State);
 
 /// Not synchronised. Reads no clock: `now` is when a record was handed out or the state is asked for, and gives the
 /// ages. Rate, jitter and noise are computed from the arrival of the records, which is the kernel's time stamp for UDP

@@ -140,7 +140,7 @@ class Session {
         shows_help_ = true;
         break;
       case 'p':
-        paused_ = paused_ ? std::nullopt : std::optional(held(live_));
+        paused_ = paused_ ? std::nullopt : std::optional(frozen(live_));
         break;
       case 'r':
         watch_.reset();

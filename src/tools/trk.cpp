@@ -162,7 +162,7 @@ class MonitorCommand {
  public:
   explicit MonitorCommand(CLI::App& app)
       : command_(app.add_subcommand("monitor",
-                                    "Show live what comes from SOURCE and what is wrong with it: on a terminal as a "
+                                    "Show live what arrives from SOURCE, and its problems: on a terminal as a "
                                     "screen (? shows its keys, q ends it), else a line a second for every camera")) {
     add_source(*command_, url_);
     add_seconds(*command_, options_.seconds);

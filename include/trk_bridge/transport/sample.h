@@ -98,7 +98,7 @@ struct Sample {
   /// False where the protocol has no lens: then of the record's parameters only the pose says anything.
   bool has_lens = true;
   LensEncoders encoders;  ///< empty where the protocol has none
-  /// What is wrong with it although it was taken, for a person; static text, empty where nothing is: "wrong checksum".
+  /// Why it may be wrong although it was accepted: "wrong checksum". Static text for people; empty: no doubt.
   const char* doubt = "";
   /// When the sender sampled the camera by its own clock, ns since 1970 UTC; none where the protocol has no time.
   std::optional<std::int64_t> sample_time;

@@ -16,7 +16,7 @@ using test::bytes;
 using test::table_of;
 using testing::HasSubstr;
 
-/// The one datagram of the record; what is wrong with it where there is none.
+/// The one datagram of the record, or the fault.
 std::string datagram_of(Encoder& encoder, const wire::CameraParams& params) {
   if (const auto begun = encoder.begin(params); !begun) return describe(begun.error());
   const auto datagram = encoder.next();

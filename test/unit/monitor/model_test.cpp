@@ -113,7 +113,7 @@ TEST_F(ModelTest, AfterAResetNothingIsKnownOfBefore) {
 TEST_F(ModelTest, AStateThatIsHeldStaysAsItIs) {
   add(test::params(1), milliseconds(20));
   const auto live = state(milliseconds(20));
-  const auto kept = held(live);
+  const auto kept = frozen(live);
   add(test::params(2), milliseconds(40));
   EXPECT_EQ(live.cameras.front().history->newest(), 40'000'000) << "it is the model's";
   EXPECT_EQ(kept.cameras.front().history->newest(), 20'000'000);
