@@ -208,7 +208,7 @@ std::optional<transport::Fault> record(file::TakeReader& take, const Schedule& s
         ++field;
         break;
       }
-      case file::TakeReader::Got::cut:
+      case file::TakeReader::Got::truncated:
         cut = take.fault();
         break;
       case file::TakeReader::Got::end:
@@ -227,7 +227,7 @@ void check_written(const std::string& path, const transport::Written& written) {
 
 void bag_of_take(const std::string& take_path, const std::string& bag_path, const TakeToBagOptions& options,
                  cli::LongRun& run, std::ostream& err) {
-  file::TakeReader take(take_path, file::Unsound::is_error, file::Waiting::blocks);
+  file::TakeReader take(take_path, file::MalformedLines::are_errors, file::Waiting::blocks);
   if (take.next() != file::TakeReader::Got::head) throw transport::TransportError(take.error());
   try {
     TakeCamera camera(options);

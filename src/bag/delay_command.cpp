@@ -89,7 +89,7 @@ void read_constants(Reader& bag, const std::string& topic, delay::Meter& meter) 
   bag.read([&](const Connection& connection) { return connection.topic == topic; },
            [&](const RawMessage& raw) {
              const auto change = meter.use(ros1::from_msg(message_of<trk_bridge::CameraConstants>(raw)));
-             if (change == camera::ConstantsChange::unsound) {
+             if (change == camera::ConstantsChange::invalid) {
                throw BagError("constants of " + topic + " describe no picture");
              }
              if (std::exchange(known, true) && change == camera::ConstantsChange::changed) {

@@ -14,7 +14,7 @@ void RecordedConstants::use(const wire::CameraConstants& constants, std::int64_t
       if (!is_fixed_) return;
       throw BagError("the constants change at " + base::seconds_text(stamp) +
                      ", and a take holds one set: cut the recording there (rosbag filter)");
-    case camera::ConstantsChange::unsound:
+    case camera::ConstantsChange::invalid:
       throw BagError("the constants at " + base::seconds_text(stamp) + ": " +
                      camera::describe(camera::CameraReason::bad_constants));
   }

@@ -54,12 +54,12 @@ StopSignals::StopSignals(void (*stop)()) {
 
 StopSignals::~StopSignals() {
   to_call.store(nullptr);
-  if (came()) return;
+  if (received()) return;
   ::sigaction(SIGINT, &interrupt_, nullptr);
   ::sigaction(SIGTERM, &terminate_, nullptr);
 }
 
-bool StopSignals::came() noexcept { return first.load() != 0; }
+bool StopSignals::received() noexcept { return first.load() != 0; }
 
 void open_standard_descriptors() noexcept {
   for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd) {

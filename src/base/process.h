@@ -17,7 +17,7 @@ class StopSignals {
   StopSignals& operator=(const StopSignals&) = delete;
 
   /// Whether one has come.
-  static bool came() noexcept;
+  static bool received() noexcept;
 
  private:
   struct sigaction interrupt_ {};

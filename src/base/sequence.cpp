@@ -83,7 +83,7 @@ Order Sequence::judge(std::uint64_t counter, std::uint64_t fingerprint) noexcept
       fingerprints_[next_fingerprint_] = fingerprint;
       next_fingerprint_ = (next_fingerprint_ + 1) % std::min<std::uint64_t>(second_, window);
     }
-    if (counts_.state == CounterState::stands && !is_new(order)) order = Order::uncounted;
+    if (counts_.state == CounterState::frozen && !is_new(order)) order = Order::uncounted;
   }
   switch (order) {
     case Order::duplicate:
@@ -136,11 +136,11 @@ Order Sequence::back(std::uint64_t counter, std::uint64_t by, std::uint64_t fing
   }
   if (is_known(fingerprint)) return Order::duplicate;
   if (by == 0) {
-    note_return(CounterState::stands);
+    note_return(CounterState::frozen);
     return Order::uncounted;
   }
   if (by <= late_reach && !came(by) && lates_ < lates_allowed) return fill(by);
-  if (by < largest_circle(second_)) note_return(CounterState::circles);
+  if (by < largest_circle(second_)) note_return(CounterState::cycles);
   return begin_at(counter, Order::restarted);
 }
 
@@ -167,7 +167,7 @@ void Sequence::watch(Order order) noexcept {
   lates_ = order == Order::late ? lates_ + 1 : 0;
   steady_ = order == Order::next ? steady_ + 1 : 0;
   if (since_return_ < largest_circle(second_)) ++since_return_;
-  if (repeats_ > repeats_allowed) counts_.state = CounterState::stands;
+  if (repeats_ > repeats_allowed) counts_.state = CounterState::frozen;
   if (steady_ > largest_circle(second_)) counts_.state = CounterState::counts;
 }
 

@@ -26,7 +26,7 @@ CameraPipeline::CameraPipeline(const CameraOptions& options, std::optional<doubl
       stamper_(nanoseconds_of(options.delay)),
       converter_(options.format),
       calibrator_(options.plumb_bob_tolerance) {
-  if (options.constants && converter_.use(*options.constants) != ConstantsChange::unsound) {
+  if (options.constants && converter_.use(*options.constants) != ConstantsChange::invalid) {
     statistics_.constants = ConstantsOrigin::parameter;
   }
 }
@@ -71,7 +71,7 @@ CameraUpdate CameraPipeline::begin(const wire::CameraConstants& constants, const
   const auto origin = own ? ConstantsOrigin::own : ConstantsOrigin::any_camera;
   if (origin < statistics_.constants) return {};
   const ConstantsChange change = converter_.use(constants);
-  if (change == ConstantsChange::unsound) {
+  if (change == ConstantsChange::invalid) {
     ++statistics_.bad_constants;
     return {};
   }
@@ -91,7 +91,7 @@ CameraUpdate CameraPipeline::begin(const wire::CameraParams& params, const trans
     return {};
   }
   const camera::Converted converted = converter_.convert(params);
-  const auto reason = camera::why_no_camera(converted, sample.has_lens);
+  const auto reason = camera::why_not_a_camera(converted, sample.has_lens);
   if (!reason) {
     if (claim == SenderLock::Claim::free) note_failover();
     lock_.take(sample.sender, now);

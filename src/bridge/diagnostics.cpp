@@ -34,9 +34,9 @@ const char* counter_text(base::CounterState state) {
   switch (state) {
     case base::CounterState::counts:
       return "counts";
-    case base::CounterState::circles:
+    case base::CounterState::cycles:
       return "begins again every few records";
-    case base::CounterState::stands:
+    case base::CounterState::frozen:
       return "stands still";
     case base::CounterState::ignored:
       return "ignored";
@@ -171,7 +171,7 @@ void add_sender_findings(std::vector<Finding>& found, const CameraReport& now, c
          "the sender changes its port with every datagram: senders are told apart by their address alone");
   }
   const auto counter = camera.sequence.state;
-  if (counter == base::CounterState::circles || counter == base::CounterState::stands) {
+  if (counter == base::CounterState::cycles || counter == base::CounterState::frozen) {
     warn(found, Condition::uncounted,
          std::string("the counter ") + counter_text(counter) + ": records are published as they come");
   }

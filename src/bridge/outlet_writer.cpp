@@ -84,7 +84,7 @@ void OutletWriter::write(const wire::CameraParams& params, const transport::Reco
 std::optional<wire::CameraParams> OutletWriter::converted(const wire::CameraParams& params, const Camera* camera) {
   if (!form_.format && feed_ == Feed::passed_on) return params;
   const auto converted = (camera != nullptr ? camera->converter : without_constants_).convert(params);
-  if (const auto reason = camera::why_no_camera(converted); reason && feed_ == Feed::one_camera) {
+  if (const auto reason = camera::why_not_a_camera(converted); reason && feed_ == Feed::one_camera) {
     ++statistics_.dropped;
     statistics_.drop_reason = *reason;
     lose(params.id, *reason);

@@ -24,7 +24,7 @@ constexpr std::uint32_t sent_id(const transport::SinkForm& form, std::uint32_t o
 /// Whose records a program writes to its sinks.
 enum class Feed : std::uint8_t {
   passed_on,   ///< of as many cameras as there are ids; what is no camera is sent where the format needs no change
-  one_camera,  ///< of one camera, whatever their ids; what is no camera (camera::why_no_camera) is dropped
+  one_camera,  ///< of one camera, whatever their ids; what is no camera (camera::why_not_a_camera) is dropped
 };
 
 /// Why a record was lost before the sink.

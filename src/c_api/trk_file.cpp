@@ -36,7 +36,8 @@ trkError trkFileOpenRead(const char* fileName, char* timeCode, trkCameraConstant
   return guarded([&] {
     if (fileName == nullptr || timeCode == nullptr || constants == nullptr || handle == nullptr) return trkFailed;
     // Throws when it cannot be read.
-    auto playback = std::make_unique<file::TakeReader>(fileName, file::Unsound::is_left_out, file::Waiting::blocks);
+    auto playback =
+        std::make_unique<file::TakeReader>(fileName, file::MalformedLines::are_skipped, file::Waiting::blocks);
     if (playback->next() != file::TakeReader::Got::head) return trkInvalidVersion;
     const std::string code = base::to_string(playback->time_code());
     if (code.size() >= trkTimeCodeSize) return trkInvalidVersion;
@@ -82,7 +83,7 @@ trkError trkFileReadParams(trkHandle handle, trkCameraParams* params) {
         case Got::params:
           *params = c_api::to_c(playback->params());
           return trkOK;
-        case Got::left_out:
+        case Got::skipped:
           return trkInvalidVersion;
         case Got::failed:
           return trkFailed;

@@ -21,14 +21,14 @@ Result<wire::CameraParams> in_format(std::uint32_t format, const wire::CameraPar
 
 }  // namespace
 
-std::optional<CameraReason> why_no_camera(const Converted& converted, bool has_lens) noexcept {
+std::optional<CameraReason> why_not_a_camera(const Converted& converted, bool has_lens) noexcept {
   if (!converted.pose) return converted.pose.error();
   if (has_lens && !converted.lens && converted.lens.error() == CameraReason::not_finite) return converted.lens.error();
   return std::nullopt;
 }
 
 ConstantsChange Converter::use(const wire::CameraConstants& constants) noexcept {
-  if (!check(constants)) return ConstantsChange::unsound;
+  if (!check(constants)) return ConstantsChange::invalid;
   if (constants_ && constants_->incoming == constants) return ConstantsChange::unchanged;
   constants_ = Constants{constants, format_ ? constants_for(constants, *format_) : constants};
   return ConstantsChange::changed;

@@ -17,7 +17,7 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  static bool stopped() noexcept { return base::StopSignals::came(); }
+  static bool stopped() noexcept { return base::StopSignals::received(); }
 
  private:
   base::StopSignals signals_;

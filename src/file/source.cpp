@@ -123,14 +123,14 @@ class FileSource final : public transport::CountedSource {
         case TakeReader::Got::params:
           has_next_ = has_field_ = true;
           return Event::sample;
-        case TakeReader::Got::left_out:
+        case TakeReader::Got::skipped:
           // It was a field as well: the others keep their times.
           ++played_;
           if (!is_first_round_) break;
-          return left_out(into);
-        case TakeReader::Got::cut:
+          return skipped(into);
+        case TakeReader::Got::truncated:
           if (!is_first_round_) break;
-          return left_out(into);
+          return skipped(into);
         case TakeReader::Got::end:
           if (!loop_) return ended();
           return next_round();
@@ -176,7 +176,7 @@ class FileSource final : public transport::CountedSource {
     return Event::sample;
   }
 
-  Event left_out(Reception& into) {
+  Event skipped(Reception& into) {
     set_source(into.sample);
     into.sample.arrival = base::wall_now();
     into.fault = take_->fault();
@@ -241,8 +241,8 @@ class FileSource final : public transport::CountedSource {
 };
 
 /// Whether there is a field to play, however far behind lines that are left out. Throws TransportError.
-bool has_field(const std::string& path, Unsound unsound) {
-  TakeReader take(path, unsound, Waiting::never);
+bool has_field(const std::string& path, MalformedLines malformed) {
+  TakeReader take(path, malformed, Waiting::never);
   for (;;) {
     switch (take.next()) {
       case TakeReader::Got::params:
@@ -275,8 +275,8 @@ std::unique_ptr<Source> open_source(const SourceSettings& settings, double field
     refuse("date: " + std::to_string(*settings.date) +
            " seconds since 1970 are after 2249-12-31, the last day allowed");
   }
-  const Unsound unsound = settings.lenient ? Unsound::is_left_out : Unsound::is_error;
-  auto take = std::make_unique<TakeReader>(settings.path, unsound, Waiting::never);
+  const MalformedLines malformed = settings.lenient ? MalformedLines::are_skipped : MalformedLines::are_errors;
+  auto take = std::make_unique<TakeReader>(settings.path, malformed, Waiting::never);
   if (take->is_fifo()) {
     if (settings.loop) refuse("loop=1: a FIFO can be played once");
     return std::make_unique<FileSource>(settings, rate, std::move(take), std::nullopt);
@@ -284,7 +284,7 @@ std::unique_ptr<Source> open_source(const SourceSettings& settings, double field
   if (take->next() != TakeReader::Got::head) throw TransportError(take->error());
   const auto codes = codes_of(*take, rate, settings.time);
   if (!codes) refuse(codes.error());
-  if (settings.loop && !has_field(settings.path, unsound)) refuse(nothing_to_loop);
+  if (settings.loop && !has_field(settings.path, malformed)) refuse(nothing_to_loop);
   return std::make_unique<FileSource>(settings, rate, std::move(take), *codes);
 }
 

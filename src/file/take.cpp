@@ -46,11 +46,11 @@ std::string reason_text(std::uint8_t code, std::int16_t field) {
   }
 }
 
-std::string describe_unsound(const transport::Fault& fault) {
+std::string describe_malformed(const transport::Fault& fault) {
   return "line " + std::to_string(fault.line()) + ": " + reason_text(fault.code(), fault.field());
 }
 
-std::string describe_cut(const transport::Fault& fault) {
+std::string describe_truncated(const transport::Fault& fault) {
   return "line " + std::to_string(fault.line()) + " is cut: " + reason_text(fault.code(), fault.field()) +
          "; all lines before it are used";
 }
@@ -69,8 +69,8 @@ std::string refusal_of_kind(mode_t mode) {
 
 }  // namespace
 
-TakeReader::TakeReader(std::string path, Unsound unsound, Waiting waiting)
-    : path_(std::move(path)), unsound_(unsound), waiting_(waiting), file_(-1) {
+TakeReader::TakeReader(std::string path, MalformedLines malformed, Waiting waiting)
+    : path_(std::move(path)), malformed_(malformed), waiting_(waiting), file_(-1) {
   const auto refuse = [this](const std::string& reason) { throw transport::TransportError(refusal(path_, reason)); };
   // Before it is opened: that alone does something to devices.
   struct stat state {};
@@ -171,7 +171,7 @@ TakeReader::Got TakeReader::next() {
       case Line::end:
         return finish();
       case Line::too_long:
-        return unsound(is_too_long, -1);
+        return malformed(is_too_long, -1);
       case Line::whole:
       case Line::last:
         break;
@@ -211,9 +211,9 @@ TakeReader::Got TakeReader::take_head(std::string_view content) {
 
 TakeReader::Got TakeReader::take_params(std::string_view content, bool is_last) {
   const auto give_up = [&](std::uint8_t code, std::int16_t field) {
-    if (!is_last) return unsound(code, field);
-    fault_ = {"cut line", describe_cut, code, field, number_};
-    return Got::cut;
+    if (!is_last) return malformed(code, field);
+    fault_ = {"cut line", describe_truncated, code, field, number_};
+    return Got::truncated;
   };
   if (content.find('\0') != std::string_view::npos) return give_up(has_nul, -1);
   const auto params = wire::params_from_text(content);
@@ -227,10 +227,10 @@ TakeReader::Got TakeReader::take_params(std::string_view content, bool is_last) 
   return Got::params;
 }
 
-TakeReader::Got TakeReader::unsound(std::uint8_t code, std::int16_t field) {
-  if (stage_ != Stage::params || unsound_ == Unsound::is_error) return fail(reason_text(code, field));
-  fault_ = {"unsound line", describe_unsound, code, field, number_};
-  return Got::left_out;
+TakeReader::Got TakeReader::malformed(std::uint8_t code, std::int16_t field) {
+  if (stage_ != Stage::params || malformed_ == MalformedLines::are_errors) return fail(reason_text(code, field));
+  fault_ = {"unsound line", describe_malformed, code, field, number_};
+  return Got::skipped;
 }
 
 TakeReader::Got TakeReader::fail(const std::string& reason) {

@@ -15,7 +15,7 @@
 namespace trk_bridge::file {
 
 /// What to do with a line of parameters that is not sound.
-enum class Unsound : std::uint8_t { is_error, is_left_out };
+enum class MalformedLines : std::uint8_t { are_errors, are_skipped };
 
 /// Whether a reader of a FIFO waits for its writer.
 enum class Waiting : std::uint8_t { blocks, never };
@@ -32,8 +32,8 @@ class TakeReader {
   enum class Got : std::uint8_t {
     head,         ///< time_code() and constants() are known, and only now
     params,       ///< params(): one video field
-    left_out,     ///< a line that is not sound: fault(); only with Unsound::is_left_out
-    cut,          ///< the last line is: fault(); the end follows
+    skipped,      ///< a line that is not sound: fault(); only with MalformedLines::are_skipped
+    truncated,    ///< the last line is: fault(); the end follows
     end,          ///< and nothing else from then on
     nothing_yet,  ///< of a FIFO, only with Waiting::never: fd() is readable when there is more
     failed,       ///< it cannot be read on: error()
@@ -41,7 +41,7 @@ class TakeReader {
 
   /// Throws transport::TransportError: `PATH: cannot be read: why`; also for what is neither a regular file nor a FIFO.
   /// With Waiting::blocks it waits for a FIFO's writer.
-  TakeReader(std::string path, Unsound unsound, Waiting waiting);
+  TakeReader(std::string path, MalformedLines malformed, Waiting waiting);
 
   [[nodiscard]] Got next();
   /// Goes back to the first field of a regular file, once next() has said `head`; no further `head` comes. False when
@@ -76,12 +76,12 @@ class TakeReader {
   Line fill();
   Got take_head(std::string_view content);
   Got take_params(std::string_view content, bool is_last);
-  Got unsound(std::uint8_t code, std::int16_t field);
+  Got malformed(std::uint8_t code, std::int16_t field);
   Got fail(const std::string& reason);
   Got finish();
 
   const std::string path_;
-  const Unsound unsound_;
+  const MalformedLines malformed_;
   const Waiting waiting_;
   transport::Descriptor file_;
   bool is_fifo_ = false;

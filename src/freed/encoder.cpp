@@ -35,7 +35,7 @@ tl::expected<void, Fault> Encoder::begin(const wire::CameraConstants& constants)
   has_datagram_ = false;
   if (constants.id >= cameras_.size()) return tl::make_unexpected(no_camera_number());
   auto& converter = cameras_[constants.id].converter;
-  if (converter.use(constants) == camera::ConstantsChange::unsound) {
+  if (converter.use(constants) == camera::ConstantsChange::invalid) {
     return tl::make_unexpected(no_camera(camera::CameraReason::bad_constants));
   }
   return {};

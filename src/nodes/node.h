@@ -59,7 +59,7 @@ int node_main(int argc, char** argv, const char* name) {
   try {
     const Node running(node, ::ros::NodeHandle("~"), ::ros::this_node::getName());
     // As ros::spin(), but the node is destroyed while there still is a log.
-    while (::ros::ok() && !base::StopSignals::came()) {
+    while (::ros::ok() && !base::StopSignals::received()) {
       ::ros::getGlobalCallbackQueue()->callAvailable(::ros::WallDuration(0.1));
     }
   } catch (const std::exception& error) {

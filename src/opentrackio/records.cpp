@@ -354,7 +354,7 @@ tl::expected<Sample, transport::Fault> RecordsWriter::sample_of(
   if (number < 1 || number > highest_source) return tl::unexpected(fault_of(Reason::no_source_number));
   Camera& camera = bounded(cameras_, params.id);
   const camera::Converted converted = camera.converter.convert(params);
-  if (const auto why = camera::why_no_camera(converted)) return tl::unexpected(fault_of(*why));
+  if (const auto why = camera::why_not_a_camera(converted)) return tl::unexpected(fault_of(*why));
   if (!converted.params) return tl::unexpected(fault_of(converted.params.error()));
 
   Sample sample;

@@ -33,7 +33,7 @@ class DatagramEncoder final : public transport::Encoder {
 
   wire::WireForm form_;
   wire::Buffer buffer_{};
-  wire::TextMemory memory_;
+  wire::TextCache memory_;
   std::optional<std::string_view> datagram_;
 };
 

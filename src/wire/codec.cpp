@@ -106,7 +106,7 @@ tl::expected<std::string_view, Fault> encode(const CameraParams& params, WireFor
 }
 
 tl::expected<std::string_view, Fault> encode(const CameraParams& params, WireForm form, Buffer& buffer,
-                                             TextMemory& memory) noexcept {
+                                             TextCache& memory) noexcept {
   return encode_record(params, form, buffer, memory);
 }
 

@@ -22,7 +22,7 @@ inline constexpr std::size_t payload_room = max_datagram - header_size;
 
 /// Write up to `payload_room` bytes and return how many. 0: `fault` says why.
 [[nodiscard]] std::size_t write_text(const CameraParams&, char* to, Fault& fault) noexcept;
-[[nodiscard]] std::size_t write_text(const CameraParams&, char* to, Fault& fault, TextMemory&) noexcept;
+[[nodiscard]] std::size_t write_text(const CameraParams&, char* to, Fault& fault, TextCache&) noexcept;
 [[nodiscard]] std::size_t write_text(const CameraConstants&, char* to, Fault& fault) noexcept;
 [[nodiscard]] std::size_t write_image(const CameraParams&, const Layout&, char* to, Fault& fault) noexcept;
 [[nodiscard]] std::size_t write_image(const CameraConstants&, const Layout&, char* to, Fault& fault) noexcept;

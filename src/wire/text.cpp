@@ -99,8 +99,8 @@ void read_matrix(Reader& reader, std::array<double, 16>& matrix) noexcept {
 /// Puts the fields of a record one after another, one space between, until one cannot be written.
 class TextWriter {
  public:
-  explicit TextWriter(char* to, TextMemory* memory = nullptr) noexcept : begin_(to), at_(to), memory_(memory) {}
-  static_assert(sizeof TextMemory::Number::text == longest_number);
+  explicit TextWriter(char* to, TextCache* memory = nullptr) noexcept : begin_(to), at_(to), memory_(memory) {}
+  static_assert(sizeof TextCache::Number::text == longest_number);
 
   void id(std::uint32_t value) noexcept {
     if (value == 0) return;
@@ -125,7 +125,7 @@ class TextWriter {
     }
     std::uint64_t bits;
     std::memcpy(&bits, &value, sizeof bits);
-    TextMemory::Number& last = memory_->numbers_[place - transform_place];
+    TextCache::Number& last = memory_->numbers_[place - transform_place];
     if (last.bits != bits || last.length == 0) {
       char* const end = write_shortest(value, at_);
       last.bits = bits;
@@ -162,7 +162,7 @@ class TextWriter {
 
   char* const begin_;
   char* at_;
-  TextMemory* const memory_;
+  TextCache* const memory_;
   FirstFault fault_;
 };
 
@@ -214,7 +214,7 @@ std::size_t write_text(const CameraParams& p, char* to, Fault& fault) noexcept {
   return write_params(p, TextWriter(to), fault);
 }
 
-std::size_t write_text(const CameraParams& p, char* to, Fault& fault, TextMemory& memory) noexcept {
+std::size_t write_text(const CameraParams& p, char* to, Fault& fault, TextCache& memory) noexcept {
   return write_params(p, TextWriter(to, &memory), fault);
 }
 

@@ -20,12 +20,12 @@ struct Take {
   base::TimeCode time_code;
   wire::CameraConstants constants;
   std::vector<wire::CameraParams> params;
-  std::vector<LeftOut> left_out;  ///< lines: a last one that is cut, and with Unsound::is_left_out others
+  std::vector<LeftOut> left_out;  ///< lines: a last one that is cut, and with MalformedLines::are_skipped others
 };
 
 /// Throws transport::TransportError as the reader says it.
-inline Take read_take(const std::string& path, Unsound unsound = Unsound::is_error) {
-  TakeReader reader(path, unsound, Waiting::blocks);
+inline Take read_take(const std::string& path, MalformedLines malformed = MalformedLines::are_errors) {
+  TakeReader reader(path, malformed, Waiting::blocks);
   Take take;
   for (;;) {
     switch (reader.next()) {
@@ -36,8 +36,8 @@ inline Take read_take(const std::string& path, Unsound unsound = Unsound::is_err
       case TakeReader::Got::params:
         take.params.push_back(reader.params());
         break;
-      case TakeReader::Got::left_out:
-      case TakeReader::Got::cut:
+      case TakeReader::Got::skipped:
+      case TakeReader::Got::truncated:
         take.left_out.push_back({take.params.size(), reader.fault()});
         break;
       case TakeReader::Got::end:

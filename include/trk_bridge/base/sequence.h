@@ -33,8 +33,8 @@ constexpr bool is_new(Order order) noexcept { return order != Order::duplicate &
 /// What the counter of a camera does.
 enum class CounterState : std::uint8_t {
   counts,
-  circles,  ///< it begins again every second or two, as the frame of a second does
-  stands,   ///< it does not change, or its records repeat: all are taken as they come until it counts again
+  cycles,   ///< it begins again every second or two, as the frame of a second does
+  frozen,   ///< it does not change, or its records repeat: all are taken as they come until it counts again
   ignored,  ///< CounterUse::ignore
 };
 

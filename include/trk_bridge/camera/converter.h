@@ -15,7 +15,7 @@ namespace trk_bridge::camera {
 enum class ConstantsChange : std::uint8_t {
   unchanged,  ///< equal to those before in every field, the id as well
   changed,    ///< the first ones, or they differ: they are used from now on
-  unsound,    ///< they do not pass check(): they are not used, and those before stay
+  invalid,    ///< they do not pass check(): they are not used, and those before stay
 };
 
 /// One set of parameters, decoded and converted. Each part stands by itself: any of them can fail alone.
@@ -27,7 +27,7 @@ struct Converted {
 
 /// Why a record is no camera, whatever the format: a pose that is not finite or no rotation, or a lens that is not
 /// finite. Without `has_lens` the lens says nothing. None where it is one.
-[[nodiscard]] std::optional<CameraReason> why_no_camera(const Converted&, bool has_lens = true) noexcept;
+[[nodiscard]] std::optional<CameraReason> why_not_a_camera(const Converted&, bool has_lens = true) noexcept;
 
 /// Converts one camera's records to one format and remembers the camera's constants. Not synchronised, never allocates.
 class Converter {

@@ -53,7 +53,7 @@ struct Decoded : DecodedForm {
 
 /// The numbers of the last parameters that were written as ASCII, each with its text: what repeats from record to
 /// record is not made again. For one writer, from one thread at a time; any use of it gives the same bytes.
-class TextMemory {
+class TextCache {
  private:
   friend class TextWriter;
   struct Number {
@@ -70,7 +70,7 @@ class TextMemory {
 [[nodiscard]] tl::expected<std::string_view, Fault> encode(const CameraParams&, WireForm, Buffer& buffer) noexcept;
 /// The same, quicker where `memory` is that of the record before.
 [[nodiscard]] tl::expected<std::string_view, Fault> encode(const CameraParams&, WireForm, Buffer& buffer,
-                                                           TextMemory& memory) noexcept;
+                                                           TextCache& memory) noexcept;
 [[nodiscard]] tl::expected<std::string_view, Fault> encode(const CameraConstants&, WireForm, Buffer& buffer) noexcept;
 
 /// The ASCII payload without header and NUL, as it also stands in files. Shortest numbers that read back; a leading

@@ -34,9 +34,9 @@ void pass(std::chrono::milliseconds time) {
 TEST(StopSignals, TheFirstOneStopsAndMoreWithinTwoSecondsChangeNothing) {
   EXPECT_EQ(outcome([] {
               const StopSignals signals(count_call);
-              if (StopSignals::came()) return 100;
+              if (StopSignals::received()) return 100;
               for (const int number : {SIGINT, SIGINT, SIGTERM, SIGTERM, SIGINT}) ::raise(number);
-              if (!StopSignals::came()) return 101;
+              if (!StopSignals::received()) return 101;
               return static_cast<int>(calls);
             }),
             1);

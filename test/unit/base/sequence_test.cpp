@@ -266,7 +266,7 @@ TEST_F(Automatic, ACounterThatStandsIsNoticedAndSoIsThatItCountsAgain) {
   EXPECT_EQ(sequence.counts().state, CounterState::counts);
   EXPECT_EQ(judge_still(7), Order::uncounted) << "the fifth field";
   EXPECT_EQ(judge_still(7), Order::uncounted);
-  EXPECT_EQ(sequence.counts().state, CounterState::stands);
+  EXPECT_EQ(sequence.counts().state, CounterState::frozen);
   for (std::uint64_t counter = 8; counter < 200; ++counter) EXPECT_EQ(judge_still(counter), Order::next);
   EXPECT_EQ(sequence.counts().state, CounterState::counts);
   EXPECT_EQ(judge_still(199), Order::duplicate);
@@ -274,7 +274,7 @@ TEST_F(Automatic, ACounterThatStandsIsNoticedAndSoIsThatItCountsAgain) {
 
 TEST_F(Automatic, ACounterOfFramesTakesBothFieldsOfEach) {
   for (std::uint64_t i = 0; i < 20; ++i) EXPECT_TRUE(is_new(judge(i / 2))) << i;
-  EXPECT_EQ(sequence.counts().state, CounterState::stands);
+  EXPECT_EQ(sequence.counts().state, CounterState::frozen);
   EXPECT_EQ(sequence.counts().lost, 0u);
 }
 
@@ -288,7 +288,7 @@ TEST_F(Automatic, OneRestartIsNoCircle) {
 
 TEST_F(Automatic, ASmallCircleIsNamed) {
   for (std::uint64_t i = 0; i < 100; ++i) EXPECT_TRUE(is_new(judge(i % 30))) << i;
-  EXPECT_EQ(sequence.counts().state, CounterState::circles);
+  EXPECT_EQ(sequence.counts().state, CounterState::cycles);
   EXPECT_EQ(sequence.counts().lost, 0u);
 }
 

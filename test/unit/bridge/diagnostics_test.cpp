@@ -135,7 +135,7 @@ TEST_F(Diagnostics, StepsRestartsAndRateChangesOfTheCounterWarnWhereStampsFollow
 TEST_F(Diagnostics, ReasonsWhyStampsAreArrivals) {
   options.stamp = StampMode::counter;
   now.camera.stamp_state = StampState::uncounted;
-  now.camera.sequence.state = base::CounterState::stands;
+  now.camera.sequence.state = base::CounterState::frozen;
   EXPECT_EQ(value("stamps"), "arrival: the counter stands still");
   now.camera.stamp_state = StampState::no_counter;
   now.camera.sequence.state = base::CounterState::counts;
@@ -189,10 +189,10 @@ TEST_F(Diagnostics, AFailoverIsAnEventThatNamesBoth) {
 }
 
 TEST_F(Diagnostics, ACounterThatIsNotTrustedIsNamed) {
-  now.camera.sequence.state = base::CounterState::stands;
+  now.camera.sequence.state = base::CounterState::frozen;
   expect(Level::warn, "the counter stands still: records are published as they come");
   EXPECT_EQ(value("counter"), "stands still");
-  now.camera.sequence.state = base::CounterState::circles;
+  now.camera.sequence.state = base::CounterState::cycles;
   expect(Level::warn, "the counter begins again every few records");
   now.camera.sequence.state = base::CounterState::ignored;
   EXPECT_EQ(status().level, Level::ok) << "as the parameter asks";

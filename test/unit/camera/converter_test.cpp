@@ -175,7 +175,7 @@ TEST(Converter, KeepsWhatItNeedNotUnderstand) {
     EXPECT_EQ(converted.pose.error(), CameraReason::not_a_rotation);
     ASSERT_FALSE(converted.lens);
     EXPECT_EQ(converted.lens.error(), i == 0 ? CameraReason::constants_needed : CameraReason::bad_field_of_view);
-    EXPECT_NE(converter.use(known), ConstantsChange::unsound);
+    EXPECT_NE(converter.use(known), ConstantsChange::invalid);
   }
 }
 
@@ -261,10 +261,10 @@ TEST(Converter, KeepsTheConstantsWhereNewOnesAreUnsound) {
   Converter converter(wire::field_of_view);
   CameraConstants unsound = known;
   unsound.image_width = 0;
-  EXPECT_EQ(converter.use(unsound), ConstantsChange::unsound);
+  EXPECT_EQ(converter.use(unsound), ConstantsChange::invalid);
   EXPECT_EQ(converter.incoming(), nullptr);
   EXPECT_EQ(converter.use(known), ConstantsChange::changed);
-  EXPECT_EQ(converter.use(unsound), ConstantsChange::unsound);
+  EXPECT_EQ(converter.use(unsound), ConstantsChange::invalid);
   ASSERT_NE(converter.incoming(), nullptr);
   EXPECT_EQ(*converter.incoming(), known);
   EXPECT_TRUE(converter.convert(awkward(0)).params);

@@ -145,7 +145,7 @@ TEST_F(ReadTake, LinesThatAreNotSoundAreLeftOutWhenThatIsWanted) {
   const std::string good = line, bad = "1 14.5 -4 oops 158\n", with_nul = std::string(good).insert(3, 1, '\0');
   write_text(path, head + good + bad + good + with_nul + std::string(10'000, 'x') + "\n" + good + "1 2 3");
   EXPECT_THAT(error_of(path), StartsWith(path + ":5: field 4 is not a number"));
-  const Take take = read_take(path, Unsound::is_left_out);
+  const Take take = read_take(path, MalformedLines::are_skipped);
   EXPECT_EQ(take.params.size(), 3U);
   std::vector<std::string> texts;
   std::vector<std::size_t> positions;
@@ -194,13 +194,13 @@ TEST_F(ReadTake, ATakeCanBeReadAgainFromItsFirstField) {
   std::string text = "\xEF\xBB\xBF# one\n" + std::string(head) + "# two\n";
   for (int i = 0; i < 2000; ++i) text += std::string(line) + "\n";
   write_text(path, text + "1 2 3");
-  TakeReader take(path, Unsound::is_error, Waiting::never);
+  TakeReader take(path, MalformedLines::are_errors, Waiting::never);
   ASSERT_EQ(take.next(), TakeReader::Got::head);
   EXPECT_EQ(take.progress(), 8192 / static_cast<double>(text.size() + 5));
   for (int round = 0; round < 3; ++round) {
     for (int i = 0; i < 2000; ++i) ASSERT_EQ(take.next(), TakeReader::Got::params);
     EXPECT_EQ(take.params().counter, 1000U);
-    EXPECT_EQ(take.next(), TakeReader::Got::cut);
+    EXPECT_EQ(take.next(), TakeReader::Got::truncated);
     EXPECT_EQ(take.fault().line(), 4006U);
     EXPECT_EQ(take.next(), TakeReader::Got::end);
     EXPECT_EQ(take.progress(), 1);

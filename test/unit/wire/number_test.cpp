@@ -140,7 +140,7 @@ TEST(Numbers, AreWrittenAsToCharsWritesThem) {
 /// The one encoded with a memory must be the one encoded without.
 TEST(Numbers, RememberedTextsAreThoseOfTheSameNumbers) {
   std::mt19937_64 random(5);
-  TextMemory memory;
+  TextCache memory;
   CameraParams p;
   const auto change = [&random](double& number) {
     if (random() % 2 == 0) number = likely_number(random);
