@@ -51,7 +51,7 @@ std::string describe_malformed(const transport::Fault& fault) {
 }
 
 std::string describe_truncated(const transport::Fault& fault) {
-  return "line " + std::to_string(fault.line()) + " is cut: " + reason_text(fault.code(), fault.field()) +
+  return "line " + std::to_string(fault.line()) + " is truncated: " + reason_text(fault.code(), fault.field()) +
          "; all lines before it are used";
 }
 
@@ -212,7 +212,7 @@ TakeReader::Got TakeReader::take_head(std::string_view content) {
 TakeReader::Got TakeReader::take_params(std::string_view content, bool is_last) {
   const auto give_up = [&](std::uint8_t code, std::int16_t field) {
     if (!is_last) return malformed(code, field);
-    fault_ = {"cut line", describe_truncated, code, field, number_};
+    fault_ = {"truncated line", describe_truncated, code, field, number_};
     return Got::truncated;
   };
   if (content.find('\0') != std::string_view::npos) return give_up(has_nul, -1);
@@ -229,7 +229,7 @@ TakeReader::Got TakeReader::take_params(std::string_view content, bool is_last) 
 
 TakeReader::Got TakeReader::malformed(std::uint8_t code, std::int16_t field) {
   if (stage_ != Stage::params || malformed_ == MalformedLines::are_errors) return fail(reason_text(code, field));
-  fault_ = {"unsound line", describe_malformed, code, field, number_};
+  fault_ = {"malformed line", describe_malformed, code, field, number_};
   return Got::skipped;
 }
 

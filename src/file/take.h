@@ -51,7 +51,7 @@ class TakeReader {
   const base::TimeCode& time_code() const noexcept { return time_code_; }
   const wire::CameraConstants& constants() const noexcept { return constants_; }
   const wire::CameraParams& params() const noexcept { return params_; }
-  /// Names the line; describe(): "line 57: field 9 is not a number", "line 57 is cut: field 9 is missing".
+  /// Names the line; describe(): "line 57: field 9 is not a number", "line 57 is truncated: field 9 is missing".
   const transport::Fault& fault() const noexcept { return fault_; }
   /// One line for a person: `PATH:LINE: what is wrong`, or `PATH: cannot be read: why`.
   const std::string& error() const noexcept { return error_; }

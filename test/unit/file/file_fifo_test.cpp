@@ -71,7 +71,7 @@ TEST_F(PlayFifo, LinesArePlayedAsTheyCome) {
   write("1 2 3");
   close();
   ASSERT_EQ(source->receive(r, -1ns), Event::malformed);
-  EXPECT_THAT(describe(r.fault), HasSubstr("line 7 is cut"));
+  EXPECT_THAT(describe(r.fault), HasSubstr("line 7 is truncated"));
   EXPECT_EQ(source->receive(r, -1ns), Event::ended);
 }
 

@@ -237,7 +237,7 @@ TEST_F(PlayFile, ALineThatIsCutIsReportedOnceAndTheRestIsPlayed) {
   Reception r;
   for (int i = 0; i < 3; ++i) ASSERT_EQ(source->receive(r, 0ns), Event::sample);
   ASSERT_EQ(source->receive(r, 0ns), Event::malformed);
-  EXPECT_THAT(describe(r.fault), HasSubstr("line 6 is cut: field 6 is missing"));
+  EXPECT_THAT(describe(r.fault), HasSubstr("line 6 is truncated: field 6 is missing"));
   EXPECT_EQ(r.sample.sender.kind, SenderKind::file);
   for (int i = 0; i < 6; ++i) ASSERT_EQ(source->receive(r, 0ns), Event::sample);
   EXPECT_EQ(source->statistics().malformed, 1u);

@@ -131,7 +131,7 @@ TEST_F(ReadTake, ALastLineThatIsCutIsLeftOutWhereverTheCutIs) {
     EXPECT_EQ(take.params.back().counter, is_whole ? 1001U : 1000U) << size;
     ASSERT_EQ(take.left_out.size(), is_whole || size == second ? 0U : 1U) << size;
     if (take.left_out.empty()) continue;
-    EXPECT_THAT(describe(take.left_out[0].fault), StartsWith("line 5 is cut: "));
+    EXPECT_THAT(describe(take.left_out[0].fault), StartsWith("line 5 is truncated: "));
     EXPECT_EQ(take.left_out[0].fault.line(), 5U);
   }
   write_text(path, text.substr(0, second + 20) + std::string(100, '\0'));
@@ -155,7 +155,7 @@ TEST_F(ReadTake, LinesThatAreNotSoundAreLeftOutWhenThatIsWanted) {
   }
   EXPECT_THAT(texts, testing::ElementsAre("line 5: field 4 is not a number", "line 7: a NUL byte in a line of text",
                                           StartsWith("line 8: a line of 4096 bytes or more"),
-                                          StartsWith("line 10 is cut: field 4 is missing")));
+                                          StartsWith("line 10 is truncated: field 4 is missing")));
   EXPECT_THAT(positions, testing::ElementsAre(1, 2, 2, 3));
 }
 

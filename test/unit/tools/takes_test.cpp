@@ -74,7 +74,7 @@ TEST(Takes, OneThatIsCutIsUsedToItsLastWholeLineWithAWarning) {
   test::write_text(path, text.substr(0, text.size() - 30));
   const std::size_t fields = file::read_take(original).params.size() - 1;
   for (const auto& [err, exit_code] : dump_and_relay(path, copy)) {
-    EXPECT_THAT(err, ContainsRegex("line [0-9]+ is cut: "));
+    EXPECT_THAT(err, ContainsRegex("line [0-9]+ is truncated: "));
     EXPECT_THAT(err, HasSubstr("(" + std::to_string(fields) + " parameters, 1 constants), malformed 1"));
     EXPECT_EQ(exit_code, 0) << err;
   }
