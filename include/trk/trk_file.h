@@ -8,35 +8,35 @@
 extern "C" {
 #endif
 
-/* Room for a time code "HH:MM:SS:FF:D" and its NUL. */
+/* Buffer size for a time code "HH:MM:SS:FF:D" with its NUL. */
 enum { trkTimeCodeSize = 16 };
 
-/* Opens a file and gives its time code (a buffer of trkTimeCodeSize) and constants. trkFailed when it cannot be read,
- * trkInvalidVersion when its beginning is not sound. Lines are read as they are asked for. */
+/* Opens a file and returns its time code (in a buffer of trkTimeCodeSize) and its constants. trkFailed when it cannot
+ * be read, trkInvalidVersion when its first lines are malformed. Each later call reads one line. */
 TRK_PUBLIC trkError trkFileOpenRead(const char* fileName, char* timeCode, trkCameraConstants* constants,
                                     trkHandle* handle);
 
 #ifndef ONLY_READ
 
-/* Creates a file with a time code "HH:MM:SS:FF:D" and constants, in the place of one of that name. The file stands
- * under `fileName` once it is closed, until then under `fileName`.part. trkFailed also for a text that is no time code.
- */
+/* Creates a file with a time code "HH:MM:SS:FF:D" and constants. It replaces an existing file. Until it is closed, the
+ * file is named `fileName`.part. trkFailed also for a text that is not a time code.
+ * */
 TRK_PUBLIC trkError trkFileOpenWrite(const char* fileName, const char* timeCode, const trkCameraConstants* constants,
                                      trkHandle* handle);
 
 #endif
 
-/* trkFailed when what was written could not be brought to its place. Also done at exit. */
+/* Gives a written file its final name; trkFailed when this fails. Open files are also closed at exit. */
 TRK_PUBLIC trkError trkFileClose(trkHandle handle);
 
-/* The next set; trkUnavailable after the last, also where the file was cut in the line behind it. trkInvalidVersion
- * once for a line that is not sound: the next call goes on behind it. */
+/* The next set. trkUnavailable after the last one, also when the line after it is truncated. trkInvalidVersion for a
+ * malformed line: the next call continues with the next line. */
 TRK_PUBLIC trkError trkFileReadParams(trkHandle handle, trkCameraParams* params);
 
 #ifndef ONLY_READ
 
-/* trkFailed when the format has unknown options or both trkVertical and trkDiagonal, a number is not finite, or the
- * file cannot take it. */
+/* trkFailed when the format has unknown options or both trkVertical and trkDiagonal, when a number is not finite, or
+ * when the file cannot be written. */
 TRK_PUBLIC trkError trkFileWriteParams(trkHandle handle, const trkCameraParams* params);
 
 #endif

@@ -1,12 +1,12 @@
-/* Camera parameters and constants, format options, errors, and their text (document, sections 3, 5 and 7).
+/* Camera parameters and constants, format options, errors, and their text forms (document, sections 3, 5 and 7).
  *
- * These headers are for libtrk: structures as in the document. Those of the same names in trk_identified are for
- * libtrk_identified: a camera number comes first in the structures, and there are some more functions. A program picks
- * one by its include path and its library; it cannot mix them.
+ * These headers are for libtrk: structures as in the document. The headers of the same names in trk_identified are for
+ * libtrk_identified: the structures begin with a camera number, and there are some more functions. A program selects
+ * one set by its include path and its library; it cannot mix them.
  *
- * The interface works from C89 and C++98. Every function may be called from any thread; calls on one handle take turns.
- * A null pointer gives trkFailed, a handle that is not open, or is of another kind or direction, trkInvalidHandle.
- * With ONLY_READ defined the functions that write are not declared. */
+ * The interface works with C89 and C++98. Every function may be called from any thread; calls on one handle are
+ * serialised. A null pointer returns trkFailed. A handle that is not open, or is of another kind or direction, returns
+ * trkInvalidHandle. If ONLY_READ is defined, the functions that write are not declared. */
 #ifndef TRK_STRUCT_H
 #define TRK_STRUCT_H
 
@@ -38,7 +38,7 @@ typedef union {
   } e;
 } trkTransform;
 
-/* One set of camera parameters, in the format that `format` says. */
+/* One set of camera parameters, in the format given by `format`. */
 typedef struct {
 #ifdef TRK_IDENTIFIED
   unsigned id; /* of the camera; 0: none */
@@ -50,10 +50,10 @@ typedef struct {
   double k1, k2;           /* mm^-2, mm^-4 */
   double focdist;          /* m */
   double aperture;
-  unsigned long counter; /* one more with every set */
+  unsigned long counter; /* increases by one with every set */
 } trkCameraParams;
 
-/* Format options, to be ORed; each pair names its default first. */
+/* Format options, to be ORed. The first of each group is the default. */
 enum {
   trkMatrix = 0x000,
   trkEuler = 0x001,
@@ -76,42 +76,42 @@ enum {
   trkShiftInPixels = 0x200
 };
 
-/* What a function gives (document, section 7.2). */
+/* Return values of the functions (document, section 7.2). */
 typedef enum {
   trkOK,             /* done */
   trkFailed,         /* not done; an open transfer should be ended */
-  trkInvalidHandle,  /* the handle is not, or no longer, one of an open transfer of this kind */
-  trkInvalidVersion, /* data of an unknown or unsound format was met; the data before and after it is good */
-  trkUnavailable     /* nothing new yet; of a file: its end */
+  trkInvalidHandle,  /* the handle does not belong to an open transfer of this kind */
+  trkInvalidVersion, /* some data was malformed or of an unknown format; the data before and after it is good */
+  trkUnavailable     /* nothing new yet; for a file: its end */
 } trkError;
 
-/* What an open...() function gives and a ...Close() function ends. Values are never used twice in a process. */
+/* Returned by an ...Open...() function, ended by a ...Close() function. Values are never used twice in a process. */
 typedef void* trkHandle;
 
-/* A text that describes the error, never null. It is constant. */
+/* A constant text that describes the error, never null. */
 TRK_PUBLIC const char* trkErrorMessage(trkError error);
 
-/* Room that is enough for any text of the functions below, its NUL included. */
+/* Buffer size that is enough for any text of the functions below, including its NUL. */
 enum { trkStringSize = 4096 };
 
-/* The text of a record as it stands in files and ASCII datagrams; numbers are the shortest that read back to the same
- * value, with a decimal point whatever the locale. Gives its length; 0, and an empty text, for a number that is not
- * finite and for a null pointer. The buffer has trkStringSize bytes. */
+/* The text of a record as in files and ASCII datagrams. Numbers are the shortest that read back to the same value, with
+ * a decimal point in every locale. Returns the length; 0 and an empty text for a number that is not finite and for a
+ * null pointer. The buffer has trkStringSize bytes. */
 TRK_PUBLIC int trkParamsToString(const trkCameraParams* params, char* buffer);
 /* The same of constants. */
 TRK_PUBLIC int trkConstantsToString(const trkCameraConstants* constants, char* buffer);
 
-/* The record of a text: 1 when it was understood, else 0, and the record is left as it was. */
+/* Reads a record from its text. Returns 1 if the text is valid, else 0; then the record is not changed. */
 TRK_PUBLIC int trkStringToParams(const char* string, trkCameraParams* params);
 /* The same of constants. */
 TRK_PUBLIC int trkStringToConstants(const char* string, trkCameraConstants* constants);
 
-/* The identifiers of a format mask that matter for it, with single spaces between; bits without a name are left out.
- * Gives the length of the text. The buffer has trkStringSize bytes. */
+/* The identifiers that are relevant for a format mask, separated by single spaces; bits without a name are omitted.
+ * Returns the length of the text. The buffer has trkStringSize bytes. */
 TRK_PUBLIC int trkFormatToString(unsigned format, char* buffer);
 
-/* The mask that identifiers name, in any case and order, separated by white space; none is 0. Of two opposite ones the
- * last counts. 1 when all were understood, else 0, and the mask is left as it was. */
+/* Reads a mask from identifiers in any case and order, separated by white space; no identifier gives 0. Of two opposite
+ * ones, the last is used. Returns 1 if all are known, else 0; then the mask is not changed. */
 TRK_PUBLIC int trkStringToFormat(const char* string, unsigned* format);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* As trk/trk_net.h, with a camera number in the structures: for libtrk_identified. */
+/* For libtrk_identified: trk/trk_net.h with a camera number in the structures. */
 #ifndef TRK_IDENTIFIED
 #define TRK_IDENTIFIED 1
 #endif

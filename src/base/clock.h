@@ -6,13 +6,13 @@
 
 namespace trk_bridge::base {
 
-/// For ages and rates: nanoseconds of a clock that nobody sets.
+/// For durations and rates: nanoseconds of a monotonic clock.
 inline std::int64_t steady_now() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
 
-/// For stamps: nanoseconds since 1970 UTC, of the system's clock.
+/// For stamps: nanoseconds since 1970 UTC, by the system clock.
 inline std::int64_t wall_now() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
       .count();

@@ -1,4 +1,4 @@
-// The known word that a mistyped one was meant to be.
+// Finds the known word that is nearest to a mistyped one.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,10 @@
 
 namespace trk_bridge::base {
 
-/// The candidate with the smallest edit distance to `word`, the first of several; `candidates` must not be empty.
+/// The candidate with the smallest edit distance to `word`; of several, the first. `candidates` must not be empty.
 const std::string& nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// The nearest one where the word is likely to be a slip of it: at most two edits, and not all of it
-/// wrong.
+/// The nearest candidate if the word is probably a typing error: at most two edits, and fewer edits than letters.
 std::optional<std::string> likely(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace trk_bridge::base

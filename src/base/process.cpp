@@ -16,9 +16,9 @@ using Stop = void (*)();
 constexpr std::int64_t grace = 2'000'000'000;  // ns
 
 std::atomic<Stop> to_call{nullptr};
-std::atomic<std::int64_t> first{0};  // when it came, ns; 0: none did
+std::atomic<std::int64_t> first{0};  // when the first signal was received, ns; 0: none
 static_assert(std::atomic<Stop>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
-              "a signal handler must not meet a lock");
+              "a signal handler must not wait for a lock");
 
 std::int64_t now() noexcept {
   timespec time{};
@@ -33,7 +33,7 @@ extern "C" void trk_bridge_stop(int number) {
   if (first.compare_exchange_strong(before, time)) {
     if (const Stop stop = to_call.load()) stop();
   } else if (time - before > grace) {
-    // Comes when this handler returns.
+    // It is delivered when this handler returns.
     ::signal(number, SIG_DFL);
     ::raise(number);
   }
@@ -63,7 +63,7 @@ bool StopSignals::received() noexcept { return first.load() != 0; }
 
 void open_standard_descriptors() noexcept {
   for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd) {
-    // The lowest free one is taken, which is this one.
+    // open() uses the lowest free descriptor, which is this one.
     if (::fcntl(fd, F_GETFD) < 0) static_cast<void>(::open("/dev/null", O_RDWR));
   }
 }

@@ -1,14 +1,14 @@
-// What programs and nodes do with their process: signals that end it, and standard descriptors.
+// Process setup for programs and nodes: signals that end it, and standard descriptors.
 #pragma once
 
 #include <csignal>
 
 namespace trk_bridge::base {
 
-/// While it lives, the first SIGINT or SIGTERM is remembered, and calls `stop`, which must be allowed in a signal
-/// handler. More of them within two seconds change nothing: impatient fingers and several supervisors must not cost a
-/// recording. One that comes later ends the process at once. Once a signal has come, this stays so after it is
-/// destroyed, but for `stop`. One at a time.
+/// During its lifetime, the first SIGINT or SIGTERM is stored and calls `stop`, which must be safe in a signal handler.
+/// More signals within two seconds are ignored: an impatient user or several supervisors must not destroy a recording.
+/// A later signal ends the process at once. After a signal, all this remains in effect when the object is destroyed,
+/// except that `stop` is not called. Only one object may exist at a time.
 class StopSignals {
  public:
   explicit StopSignals(void (*stop)() = nullptr);
@@ -16,7 +16,7 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  /// Whether one has come.
+  /// Whether a signal was received.
   static bool received() noexcept;
 
  private:
@@ -24,8 +24,8 @@ class StopSignals {
   struct sigaction terminate_ {};
 };
 
-/// Opens standard input, output and error on /dev/null where they are closed: else the next file that is opened takes
-/// their place, and messages are written into it.
+/// Opens standard input, output and error on /dev/null if they are closed: otherwise the next opened file gets their
+/// number, and messages are written into it.
 void open_standard_descriptors() noexcept;
 
 }  // namespace trk_bridge::base

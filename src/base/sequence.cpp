@@ -18,10 +18,10 @@ struct Step {
   std::uint64_t by;
 };
 
-// Counters with fewer bits than 64, which begin again at 0 behind the largest.
+// Counters with fewer than 64 bits, which continue at 0 after the largest value.
 constexpr std::array<unsigned, 3> short_counters{16, 31, 32};
 
-/// Whether `to` comes behind `from`, or a little later, on a circle of `size` counts whose end lies between them.
+/// Whether a counter of `size` values has wrapped between `from` and `to`.
 constexpr bool wraps(std::uint64_t from, std::uint64_t to, std::uint64_t size) noexcept {
   return from < size && from >= size - Sequence::window && to < Sequence::window;
 }
@@ -51,9 +51,9 @@ double checked(double field_rate) {
   return field_rate;
 }
 
-/// A counter that goes back by less, and does so again within as many records, runs in a circle. A second of 60 Hz is
-/// one also where the field rate is 25.
-std::uint64_t largest_circle(std::uint64_t second) noexcept {
+/// The longest cycle in counts: a counter that goes back by less, twice within as many records, is cyclic. At least
+/// 128, so that a second at 60 Hz is a cycle even if the field rate is 25.
+std::uint64_t longest_cycle(std::uint64_t second) noexcept {
   constexpr std::uint64_t least = 128;
   return std::max(least, 2 * second);
 }
@@ -64,7 +64,7 @@ Sequence::Sequence(double field_rate, CounterUse use)
     : use_(use),
       second_(at_least_one(checked(field_rate))),
       restart_ahead_(at_least_one(restart_ahead * field_rate)),
-      since_return_(largest_circle(second_)) {
+      since_backward_jump_(longest_cycle(second_)) {
   if (use == CounterUse::ignore) counts_.state = CounterState::ignored;
 }
 
@@ -78,7 +78,7 @@ Order Sequence::judge(std::uint64_t counter, std::uint64_t fingerprint) noexcept
   step_ = 0;
   Order order = use_ == CounterUse::ignore ? Order::uncounted : order_of(counter, fingerprint);
   if (use_ == CounterUse::automatic) {
-    watch(order);
+    update_state(order);
     if (order != Order::duplicate) {
       fingerprints_[next_fingerprint_] = fingerprint;
       next_fingerprint_ = (next_fingerprint_ + 1) % std::min<std::uint64_t>(second_, window);
@@ -110,7 +110,7 @@ Order Sequence::order_of(std::uint64_t counter, std::uint64_t fingerprint) noexc
 Order Sequence::begin_at(std::uint64_t counter, Order verdict) noexcept {
   newest_ = counter;
   span_ = 0;
-  came_.reset();
+  received_.reset();
   return verdict;
 }
 
@@ -120,10 +120,10 @@ Order Sequence::ahead(std::uint64_t counter, std::uint64_t by) noexcept {
   step_ = by;
   span_ += by;
   if (by > window) {
-    came_.reset();
+    received_.reset();
   } else {
-    came_ <<= by;
-    came_.set(by - 1);
+    received_ <<= by;
+    received_.set(by - 1);
   }
   counts_.lost += by - 1;
   return Order::next;
@@ -132,27 +132,27 @@ Order Sequence::ahead(std::uint64_t counter, std::uint64_t by) noexcept {
 Order Sequence::back(std::uint64_t counter, std::uint64_t by, std::uint64_t fingerprint) noexcept {
   if (use_ == CounterUse::strict) {
     if (by > second_) return begin_at(counter, Order::restarted);
-    return came(by) ? Order::duplicate : fill(by);
+    return received(by) ? Order::duplicate : fill(by);
   }
   if (is_known(fingerprint)) return Order::duplicate;
   if (by == 0) {
-    note_return(CounterState::frozen);
+    note_backward_jump(CounterState::frozen);
     return Order::uncounted;
   }
-  if (by <= late_reach && !came(by) && lates_ < lates_allowed) return fill(by);
-  if (by < largest_circle(second_)) note_return(CounterState::cycles);
+  if (by <= late_reach && !received(by) && lates_ < lates_allowed) return fill(by);
+  if (by < longest_cycle(second_)) note_backward_jump(CounterState::cycles);
   return begin_at(counter, Order::restarted);
 }
 
-void Sequence::note_return(CounterState state) noexcept {
-  if (since_return_ < largest_circle(second_)) counts_.state = std::max(counts_.state, state);
-  since_return_ = 0;
+void Sequence::note_backward_jump(CounterState state) noexcept {
+  if (since_backward_jump_ < longest_cycle(second_)) counts_.state = std::max(counts_.state, state);
+  since_backward_jump_ = 0;
 }
 
 Order Sequence::fill(std::uint64_t by) noexcept {
   if (by <= window) {
-    came_.set(by - 1);
-    // What is older than the first of this run was never counted as lost.
+    received_.set(by - 1);
+    // Counters before the first one of this run were never counted as lost.
     if (by <= span_) --counts_.lost;
   }
   return Order::late;
@@ -162,13 +162,13 @@ bool Sequence::is_known(std::uint64_t fingerprint) const noexcept {
   return std::find(fingerprints_.begin(), fingerprints_.end(), fingerprint) != fingerprints_.end();
 }
 
-void Sequence::watch(Order order) noexcept {
+void Sequence::update_state(Order order) noexcept {
   repeats_ = order == Order::duplicate ? repeats_ + 1 : 0;
   lates_ = order == Order::late ? lates_ + 1 : 0;
   steady_ = order == Order::next ? steady_ + 1 : 0;
-  if (since_return_ < largest_circle(second_)) ++since_return_;
+  if (since_backward_jump_ < longest_cycle(second_)) ++since_backward_jump_;
   if (repeats_ > repeats_allowed) counts_.state = CounterState::frozen;
-  if (steady_ > largest_circle(second_)) counts_.state = CounterState::counts;
+  if (steady_ > longest_cycle(second_)) counts_.state = CounterState::counts;
 }
 
 }  // namespace trk_bridge::base

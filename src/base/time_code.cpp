@@ -29,11 +29,11 @@ bool parse_part(std::string_view digits, const Part& part, TimeCode& into) {
   return true;
 }
 
-/// How the codes of a rate count, in fields.
+/// How time codes count at a rate, in fields.
 struct Counting {
-  std::int64_t second = 0;   // nominally
+  std::int64_t second = 0;   // per nominal second
   std::int64_t step = 1;     // from one sample to the next
-  std::int64_t dropped = 0;  // at the beginning of a minute
+  std::int64_t dropped = 0;  // skipped at the beginning of a minute
 
   std::int64_t ten_minutes() const { return 600 * second - 9 * dropped; }
   std::int64_t day() const { return 144 * ten_minutes(); }
@@ -64,7 +64,7 @@ tl::expected<std::int64_t, std::string> count_of(const TimeCode& code, const Cou
   }
   const bool begins_minute = code.minutes % 10 != 0 && code.seconds == 0;
   if (begins_minute && field_of_second < counting.dropped) {
-    return tl::unexpected("time code " + to_string(code) + " is one that drop-frame leaves out");
+    return tl::unexpected("time code " + to_string(code) + " does not exist: drop-frame skips it");
   }
   const std::int64_t minutes = code.hours * 60LL + code.minutes;
   return (minutes * 60 + code.seconds) * counting.second + field_of_second -
@@ -73,7 +73,7 @@ tl::expected<std::int64_t, std::string> count_of(const TimeCode& code, const Cou
 
 TimeCode code_of(std::int64_t count, const Counting& counting) {
   count %= counting.day();
-  // As if none were left out: of the first minute of ten, none is.
+  // Adds the skipped codes again; the first of ten minutes has none.
   const std::int64_t tens = count / counting.ten_minutes(), within = count % counting.ten_minutes();
   const std::int64_t minute = 60 * counting.second;
   const std::int64_t shortened = within < minute ? 0 : 1 + (within - minute) / (minute - counting.dropped);
@@ -99,9 +99,10 @@ tl::expected<TimeCode, std::string> parse_time_code(std::string_view text) {
     const bool is_last = i + 1 == parts.size(), is_before_frames = i == 2;
     const std::size_t end = is_last ? rest.size() : rest.find_first_of(is_before_frames ? ":;" : ":");
     if (end == std::string_view::npos || !parse_part(rest.substr(0, end), parts[i], code)) {
-      return tl::unexpected("\"" + std::string(text.substr(0, 40)) +
-                            "\" is no time code: HH:MM:SS:FF:D (drop-frame: HH:MM:SS;FF:D) with hours 0 to 23, minutes "
-                            "and seconds 0 to 59, frames and field 1 or 2");
+      return tl::unexpected(
+          "\"" + std::string(text.substr(0, 40)) +
+          "\" is not a time code: HH:MM:SS:FF:D (drop-frame: HH:MM:SS;FF:D) with hours 0 to 23, minutes "
+          "and seconds 0 to 59, frames and field 1 or 2");
     }
     if (is_before_frames) code.drop_frame = rest[end] == ';';
     rest.remove_prefix(is_last ? end : end + 1);

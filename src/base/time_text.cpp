@@ -13,7 +13,7 @@ constexpr std::int64_t latest = 0xFFFFFFFF;  // s, of ROS times: within 2106-02-
 constexpr std::int64_t seconds_of_day = 86'400;
 constexpr std::size_t digits_of_fraction = 9;
 
-/// All of `digits`, a number from 0 to `most`.
+/// Parses all of `digits` as a number from 0 to `most`.
 template <typename Number>
 bool parse_whole(std::string_view digits, Number most, Number& into) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), into);
@@ -69,8 +69,8 @@ std::optional<std::int64_t> day_from_text(std::string_view text) {
 
 tl::expected<std::int64_t, std::string> parse_date(const std::string& text) {
   const auto midnight = day_from_text(text);
-  if (!midnight) return tl::unexpected("\"" + text + "\" is no date: YYYY-MM-DD");
-  // Of the last day ROS times have the beginning only.
+  if (!midnight) return tl::unexpected("\"" + text + "\" is not a date: YYYY-MM-DD");
+  // ROS times end within the last day.
   if (*midnight + seconds_of_day - 1 > latest)
     return tl::unexpected("\"" + text + "\": dates are 1970-01-01 to 2106-02-06");
   return *midnight * second;
@@ -91,7 +91,7 @@ tl::expected<std::int64_t, std::string> parse_moment(const std::string& text) {
   }
   if (!is_good || moment <= 0 || moment / second > latest) {
     return tl::unexpected("\"" + text +
-                          "\" is no time: YYYY-MM-DDTHH:MM:SS in UTC, or seconds since 1970, with up to 9 decimals, "
+                          "\" is not a time: YYYY-MM-DDTHH:MM:SS in UTC, or seconds since 1970, with up to 9 decimals, "
                           "after 1970-01-01T00:00:00 and up to 2106-02-07T06:28:15");
   }
   return moment;

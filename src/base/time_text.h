@@ -1,4 +1,4 @@
-// Moments as people write and read them.
+// Times as text that users write and read.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 
 namespace trk_bridge::base {
 
-/// "2026-11-22", a day of the calendar from 1970 to 9999: its midnight UTC in seconds since 1970. None for other texts.
+/// "2026-11-22", a day from 1970 to 9999: its midnight UTC in seconds since 1970. None for other texts.
 std::optional<std::int64_t> day_from_text(std::string_view text);
 
-/// The same in nanoseconds, for days that ROS can represent (to 2106-02-06). The error says what is allowed.
+/// The same in nanoseconds, for days that ROS can represent (up to 2106-02-06). The error gives the allowed range.
 tl::expected<std::int64_t, std::string> parse_date(const std::string& text);
 
-/// "2026-11-22T10:20:30.5" in UTC (a Z at the end is allowed), or seconds since 1970 ("1795342830.5"), to the
-/// nanosecond: ns since 1970, more than 0 and within what ROS can represent (the second 2106-02-07T06:28:15 is the
-/// last). The error says what is allowed.
+/// "2026-11-22T10:20:30.5" in UTC (a Z at the end is allowed), or seconds since 1970 ("1795342830.5"), with up to 9
+/// decimals. Returns ns since 1970, more than 0 and within the range of ROS (to the second 2106-02-07T06:28:15). The
+/// error gives the allowed forms.
 tl::expected<std::int64_t, std::string> parse_moment(const std::string& text);
 
-/// "1700000000.123456789" of nanoseconds since 1970.
+/// "1700000000.123456789" from nanoseconds since 1970.
 std::string seconds_text(std::int64_t nanoseconds);
-/// "2023-11-14T22:13:20.123456789Z" of nanoseconds since 1970.
+/// "2023-11-14T22:13:20.123456789Z" from nanoseconds since 1970.
 std::string iso_time(std::int64_t nanoseconds);
 
 }  // namespace trk_bridge::base

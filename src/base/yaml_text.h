@@ -1,4 +1,4 @@
-// Reads YAML files that people write, with faults that name the line. For modules that use yaml-cpp.
+// Reads YAML files written by users, with faults that name the line. For modules that use yaml-cpp.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace trk_bridge::base {
 
-/// What is wrong, and where.
+/// An error and its position.
 struct YamlFault {
   YAML::Mark mark;
   std::string what;
@@ -21,21 +21,21 @@ struct YamlFault {
 template <typename T>
 using YamlRead = tl::expected<T, YamlFault>;
 
-/// A value with the place of its key: an empty value has its own place in the line after.
+/// A value with the position of its key, because an empty value has its position in the next line.
 struct YamlValue {
   std::string key;
   YAML::Mark mark;
   YAML::Node node;
 };
 
-/// The value of a key; its node is not defined where `map` does not have the key.
+/// The value of a key; its node is undefined if `map` does not have the key.
 inline YamlValue yaml_value(const YAML::Node& map, const std::string& key) {
   const auto entry = std::find_if(map.begin(), map.end(), [&](const auto& one) { return one.first.Scalar() == key; });
   if (entry == map.end()) return {key, map.Mark(), YAML::Node(YAML::NodeType::Undefined)};
   return {key, entry->first.Mark(), entry->second};
 }
 
-/// Faults keys that are not known, come twice or are missing.
+/// Checks for keys that are unknown, given twice or missing.
 inline YamlRead<void> check_yaml_keys(const YAML::Node& map, const std::vector<std::string>& required,
                                       const std::vector<std::string>& optional = {}) {
   std::vector<std::string> known = required;
@@ -60,12 +60,12 @@ inline YamlRead<void> check_yaml_keys(const YAML::Node& map, const std::vector<s
   return {};
 }
 
-/// What `read` makes of the root of a document. The error begins with `file_name` and the line (`presets.yaml:12: …`).
+/// Parses a document and returns `read(root)`. The error begins with `file_name` and the line (`presets.yaml:12: …`).
 template <typename Read>
 auto read_yaml(const std::string& yaml, const std::string& file_name, const Read& read)
     -> tl::expected<typename decltype(read(YAML::Node()))::value_type, std::string> {
   const auto at = [&](const YAML::Mark& mark, const std::string& what) {
-    // An empty file has no place for its fault.
+    // The fault of an empty file has no position.
     const int line = mark.is_null() ? 1 : mark.line + 1;
     return tl::make_unexpected(file_name + ":" + std::to_string(line) + ": " + what);
   };

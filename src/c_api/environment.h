@@ -1,4 +1,4 @@
-// What the environment says of the binary records that are made.
+// Reads the layout of written binary records from the environment.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace trk_bridge::c_api {
 
-/// TRK_LAYOUT; nothing chosen where it is not set. None, and a line on stderr, for a word that is no layout.
+/// TRK_LAYOUT; an empty choice if it is not set. None, and a line on stderr, for a value that is not a layout.
 std::optional<wire::LayoutChoice> layout_from_environment();
 
 }  // namespace trk_bridge::c_api

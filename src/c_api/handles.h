@@ -1,4 +1,4 @@
-// Handles of open transfers: numbers, never addresses, so that anything a program passes can be looked up safely.
+// Handles of open transfers: numbers, never addresses, so that any value from a program can be looked up safely.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "handle_lock.h"
 #include "trk_struct.h"
-#include "turn_lock.h"
 
 namespace trk_bridge::c_api {
 
-/// No exception leaves the interface.
+/// Converts exceptions to trkFailed: none may leave the C interface.
 template <typename Call>
 trkError guarded(Call&& call) noexcept {
   try {
@@ -27,50 +27,51 @@ trkError guarded(Call&& call) noexcept {
   }
 }
 
-/// A number that no other handle of this process has or had.
+/// A number that is unique in this process.
 inline std::uint64_t next_serial() noexcept {
-  // Far from small integers, which programs pass by mistake.
+  // Not a small integer, because programs pass these by mistake.
   static std::atomic<std::uint64_t> last{0x74726B};
   return ++last;
 }
 
-/// The open transfers of one kind. Any thread; calls on one handle take turns, calls on different ones do not. Finding
-/// one takes no lock but its own.
+/// The open transfers of one kind. Any thread; calls on one handle are serialised, calls on different handles are not.
+/// A look-up takes only the lock of that handle.
 template <typename Transfer>
 class Handles {
  public:
-  /// Throws std::bad_alloc also where `capacity` are open.
+  /// Throws std::bad_alloc, also if `capacity` handles are open.
   template <typename... Arguments>
   trkHandle open(Arguments&&... arguments) {
     const std::size_t index = take_place();
     Entry& entry = *entries_[index].load();
-    entry.turn.wait();
+    entry.lock.wait();
     entry.transfer.emplace(std::forward<Arguments>(arguments)...);
     entry.handle = reinterpret_cast<trkHandle>(static_cast<std::uintptr_t>(next_serial() << 16U | index << 4U));
     const trkHandle handle = entry.handle;
-    entry.turn.unlock();
+    entry.lock.unlock();
     return handle;
   }
 
-  /// `use(transfer)`, or trkInvalidHandle. trkFailed in a signal handler that interrupted a call on this handle.
+  /// Returns `use(transfer)`, or trkInvalidHandle. trkFailed in a signal handler that interrupted a call on this
+  /// handle.
   template <typename Use>
   trkError with(trkHandle handle, Use&& use) {
     Entry* const entry = find(handle);
     if (entry == nullptr) return trkInvalidHandle;
-    if (!entry->turn.wait()) return trkFailed;
-    const std::lock_guard<TurnLock> unlock(entry->turn, std::adopt_lock);
+    if (!entry->lock.wait()) return trkFailed;
+    const std::lock_guard<HandleLock> unlock(entry->lock, std::adopt_lock);
     return entry->handle == handle ? use(*entry->transfer) : trkInvalidHandle;
   }
 
-  /// `end(transfer)`, after which the handle is invalid.
+  /// Returns `end(transfer)` and makes the handle invalid.
   template <typename End>
   trkError close(trkHandle handle, End&& end) {
     Entry* const entry = find(handle);
     if (entry == nullptr) return trkInvalidHandle;
-    if (!entry->turn.wait()) return trkFailed;
+    if (!entry->lock.wait()) return trkFailed;
     trkError ended = trkInvalidHandle;
     {
-      const std::lock_guard<TurnLock> unlock(entry->turn, std::adopt_lock);
+      const std::lock_guard<HandleLock> unlock(entry->lock, std::adopt_lock);
       if (entry->handle != handle) return trkInvalidHandle;
       ended = end(*entry->transfer);
       entry->clear();
@@ -79,30 +80,30 @@ class Handles {
     return ended;
   }
 
-  /// Every open handle.
+  /// All open handles.
   std::vector<trkHandle> all() {
     std::vector<trkHandle> handles;
     for (auto& place : entries_) {
       Entry* const entry = place.load();
-      if (entry == nullptr || !entry->turn.wait()) continue;
-      const std::lock_guard<TurnLock> unlock(entry->turn, std::adopt_lock);
+      if (entry == nullptr || !entry->lock.wait()) continue;
+      const std::lock_guard<HandleLock> unlock(entry->lock, std::adopt_lock);
       if (entry->transfer) handles.push_back(entry->handle);
     }
     return handles;
   }
 
-  /// At the end of the process: `end(transfer)` for all that are open, those included whose call was interrupted by the
-  /// signal handler that ends it. What another thread still uses after a second is left.
+  /// At the end of the process: calls `end(transfer)` for all open handles, including one whose call was interrupted by
+  /// the signal handler that ends the process. Skips a handle that another thread still uses after a second.
   template <typename End>
   void close_all_at_exit(End&& end) noexcept {
     for (auto& place : entries_) {
       Entry* const entry = place.load();
       if (entry == nullptr) continue;
-      const bool is_interrupted = entry->turn.is_mine();
-      if (!is_interrupted && !entry->turn.wait_for(std::chrono::seconds(1))) continue;
+      const bool is_interrupted = entry->lock.is_mine();
+      if (!is_interrupted && !entry->lock.wait_for(std::chrono::seconds(1))) continue;
       if (entry->transfer) guarded([&] { return end(*entry->transfer); });
       entry->clear();
-      entry->turn.unlock();
+      entry->lock.unlock();
     }
   }
 
@@ -110,8 +111,8 @@ class Handles {
   static constexpr std::size_t capacity = 4096;
 
   struct Entry {
-    TurnLock turn;
-    trkHandle handle = nullptr;  // null while it is free
+    HandleLock lock;
+    trkHandle handle = nullptr;  // null if the entry is free
     std::optional<Transfer> transfer;
 
     void clear() {
@@ -143,13 +144,13 @@ class Handles {
     free_.push_back(index);
   }
 
-  std::array<std::atomic<Entry*>, capacity> entries_{};  // never freed, used again
-  std::mutex mutex_;                                     // of the next two
+  std::array<std::atomic<Entry*>, capacity> entries_{};  // never freed, but reused
+  std::mutex mutex_;                                     // protects the next two members
   std::vector<std::size_t> free_;
   std::size_t used_ = 0;
 };
 
-/// The handles of a kind, alive until the process ends: functions registered with atexit use them.
+/// The handles of one kind. They are never destroyed: functions registered with atexit use them.
 template <typename Transfer>
 [[gnu::always_inline]] inline Handles<Transfer>& handles() {
   static auto* const all = new Handles<Transfer>;

@@ -1,4 +1,4 @@
-// Parameters that have arrived and not been handed out, for trkNetBufReadParams (document, section 7.4).
+// A queue of received parameters, for trkNetBufReadParams (document, section 7.4).
 #pragma once
 
 #include <array>
@@ -11,26 +11,26 @@
 
 namespace trk_bridge::c_api {
 
-/// Keeps up to 16 sets, each counter once, in the order of their counters. A set that comes late is put in its place
-/// while it is still wanted; where counting restarts (base::Sequence, automatic), older sets go. Not synchronised,
+/// Holds up to 16 sets, each counter once, in the order of their counters. A late set is inserted in order if no later
+/// one was taken yet. If the counter restarts (base::Sequence, automatic), older sets are dropped. Not synchronised,
 /// never allocates.
 class ParamsRing {
  public:
   static constexpr std::size_t capacity = 16;
 
-  /// A full ring loses its oldest set.
+  /// If the ring is full, the oldest set is dropped.
   void push(const wire::CameraParams&) noexcept;
   std::size_t size() const noexcept { return size_; }
 
-  /// None of these gives a set twice, or one that is older than one given before, but for a restart. None when nothing
-  /// has arrived since.
+  /// These never return a set twice, nor one that is older than a set returned before, except after a restart. None if
+  /// nothing has arrived since.
   ///
-  /// The newest, and none of what came before it.
+  /// Takes the newest set and drops all older ones.
   std::optional<wire::CameraParams> pop_newest() noexcept;
   std::optional<wire::CameraParams> pop_oldest() noexcept;
-  /// The set `passed` counts after the one taken last, else the next one after it. The newest when the counter of the
-  /// newest is more than `tolerated` past the wanted one, no set has the wanted counter or a later one, nothing was
-  /// taken before, counting restarted, or the ring is full.
+  /// Takes the set `passed` counts after the one taken last, else the next one after that. Takes the newest set if its
+  /// counter is more than `tolerated` past the wanted one, if no set has the wanted counter or a later one, if nothing
+  /// was taken before, if the counter restarted, or if the ring is full.
   std::optional<wire::CameraParams> pop_paced(std::uint64_t passed, std::uint64_t tolerated) noexcept;
 
  private:
@@ -39,9 +39,9 @@ class ParamsRing {
   std::optional<wire::CameraParams> pop(std::size_t i) noexcept;
 
   base::Sequence sequence_{50.0, base::CounterUse::automatic};
-  std::array<wire::CameraParams, capacity> sets_{};  // the oldest first
+  std::array<wire::CameraParams, capacity> sets_{};  // oldest first
   std::size_t size_ = 0;
-  std::uint64_t given_ = 0;            // the counter of the set taken last; valid while there is a last_
+  std::uint64_t given_ = 0;            // counter of the set taken last; valid if last_ has a value
   std::optional<std::uint64_t> last_;  // the counter from which steps are counted; none after a restart
 };
 

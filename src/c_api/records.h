@@ -1,5 +1,5 @@
-// The document's C structures <-> the records of `wire`. Only libtrk_identified's structures have a camera id; without
-// one, records have id 0.
+// Converts the C structures of the document to the records of `wire` and back. Only the structures of libtrk_identified
+// have a camera id; otherwise, records have id 0.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace trk_bridge::c_api {
 
-/// The fields of trkCameraParams, the transform excepted, under the names of the records.
+/// The fields of trkCameraParams, except the transform, under the names of the records.
 struct NamedParams {
   trkCameraParams& c;
 #ifdef TRK_IDENTIFIED
@@ -54,7 +54,7 @@ struct NamedConstants {
   double& fake_chip_height = c.fakeChipHeight;
 };
 
-/// Of the transformation only what `format` selects; the rest is zero.
+/// Of the transform, only the part selected by `format` is copied; the rest is zero.
 inline trkCameraParams to_c(const wire::CameraParams& p) noexcept {
   trkCameraParams c{};
   NamedParams named{c};
@@ -95,24 +95,24 @@ inline wire::CameraConstants from_c(trkCameraConstants c) noexcept {
   return k;
 }
 
-/// Parameters as today's programs have them in memory on a machine like this one: shm::default_layout. Words: id and
+/// Parameters in shm::default_layout, as programs in use have them in memory on a machine like this one. Words: id and
 /// format, the transform (16 numbers), seven numbers, the counter. From the transform on, the structures of both header
-/// sets are the same.
+/// sets are equal.
 using NativeParams = std::array<std::uint64_t, 25>;
-/// Where they are that: not on 32 bits.
+/// Whether the structures have this layout: not on 32-bit machines.
 inline constexpr bool has_native_params =
     sizeof(NativeParams) == sizeof(trkCameraParams) && offsetof(trkCameraParams, t) == sizeof(std::uint64_t) &&
     sizeof(unsigned long) == sizeof(std::uint64_t) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
 
 inline unsigned format_of(const NativeParams& n) noexcept { return static_cast<unsigned>(n[0] >> 32U); }
 
-/// The words of the transform that Euler angles leave out.
+/// Indices of words: the first after the Euler angles, the transform and the lens.
 inline constexpr std::size_t after_euler = 7, after_transform = 17, after_lens = 24;
 
-/// Whether those that count are.
+/// Whether the numbers that the format uses are finite.
 inline bool is_finite(const NativeParams& n) noexcept {
-  // Bit 63, into which an exponent of ones carries when its lowest bit is added. Whole numbers, since a sum of doubles
-  // waits for each of them in turn.
+  // An exponent of all ones carries into bit 63 when its lowest bit is added. Integers, because a sum of doubles has to
+  // wait for each term.
   constexpr std::uint64_t exponent = 0x7FF0'0000'0000'0000, lowest = 0x0010'0000'0000'0000;
   std::uint64_t carried = 0;
   const auto carry = [&n, &carried](std::size_t i) { carried |= (n[i] & exponent) + lowest; };
@@ -127,7 +127,7 @@ inline bool is_finite(const NativeParams& n) noexcept {
   return carried >> 63U == 0;
 }
 
-/// Makes what the format does not select of the transform zero.
+/// Sets the part of the transform that the format does not select to zero.
 inline void clear_unselected(NativeParams& n) noexcept {
   if (!wire::has(format_of(n), wire::euler)) return;
 #pragma GCC unroll 10
@@ -136,7 +136,7 @@ inline void clear_unselected(NativeParams& n) noexcept {
 
 inline NativeParams to_native(const trkCameraParams& c) noexcept {
   NativeParams n;
-  // The counter apart: programs have just raised it, and a wider load would wait for that.
+  // The counter is copied separately: programs have just incremented it, and a wider load would stall.
   std::memcpy(n.data(), &c, sizeof n - sizeof n[0]);
   n[24] = c.counter;
 #ifndef TRK_IDENTIFIED
@@ -157,7 +157,7 @@ inline void from_native(const NativeParams& n, trkCameraParams& c) noexcept {
               (after_transform - after_euler) * sizeof n[0]);
 }
 
-/// Whether a program passed something that may be written.
+/// Whether the arguments of a program can be written.
 inline bool is_writable(const trkCameraParams* params) {
   return params != nullptr && wire::is_writable(params->format);
 }

@@ -157,7 +157,7 @@ trkError trkMemOpen(int slot, trkHandle* handle) {
     Memory::Options options;
     options.slot = slot;
     options.create = c_api::layout_to_make();
-    options.looks_at_every_write = false;
+    options.checks_every_write = false;
     options.recreate = (c_api::configured.load() & trkMemRecreate) != 0;
     if (options.create == nullptr) return trkFailed;
     Memory memory(options);

@@ -68,9 +68,9 @@ class NetReader {
     for (int i = 0; i < most_datagrams; ++i) {
       int error = 0;
       const auto datagram = socket_->next(/*waits=*/false, error);
-      if (!datagram) return !transport::is_lasting(error);
+      if (!datagram) return !transport::is_permanent(error);
       if (datagram->was_longer) {
-        unsound_ = true;
+        malformed_ = true;
       } else {
         decoder_.begin(datagram->bytes, datagram->sender);
         take_samples();
@@ -93,7 +93,7 @@ class NetReader {
           }
           break;
         case transport::Decoder::Next::fault:
-          unsound_ = true;
+          malformed_ = true;
           break;
         case transport::Decoder::Next::none:
           return;
@@ -108,7 +108,7 @@ class NetReader {
       return trkOK;
     }
     if (!works) return trkFailed;
-    return std::exchange(unsound_, false) ? trkInvalidVersion : trkUnavailable;
+    return std::exchange(malformed_, false) ? trkInvalidVersion : trkUnavailable;
   }
 
   std::unique_ptr<transport::ReceiveSocket> socket_;
@@ -118,7 +118,7 @@ class NetReader {
   ParamsRing ring_;
   std::optional<wire::CameraConstants> constants_;
   bool has_new_constants_ = false;
-  bool unsound_ = false;
+  bool malformed_ = false;
   bool skips_old_;
 };
 
@@ -126,10 +126,10 @@ using NetWriter = std::unique_ptr<transport::Sink>;
 
 /// `read(reader)` with the handle's port.
 template <typename Read>
-trkError receive(trkHandle handle, bool sound_arguments, Read&& read) {
+trkError receive(trkHandle handle, bool valid_arguments, Read&& read) {
   return guarded([&] {
     return handles<NetReader>().with(handle,
-                                     [&](NetReader& reader) { return sound_arguments ? read(reader) : trkFailed; });
+                                     [&](NetReader& reader) { return valid_arguments ? read(reader) : trkFailed; });
   });
 }
 
@@ -238,8 +238,8 @@ trkError trkNetReadParams(trkHandle handle, trkCameraParams* params) {
 }
 
 trkError trkNetBufReadParams(trkHandle handle, trkCameraParams* params, int numPassed, int numTolerated) {
-  const bool sound = params != nullptr && numPassed >= 0 && numTolerated >= 0;
-  return c_api::receive(handle, sound, [&](NetReader& reader) {
+  const bool valid = params != nullptr && numPassed >= 0 && numTolerated >= 0;
+  return c_api::receive(handle, valid, [&](NetReader& reader) {
     return reader.read_paced(*params, static_cast<unsigned>(numPassed), static_cast<unsigned>(numTolerated));
   });
 }

@@ -56,8 +56,8 @@ Result<Calibrator::Fit> Calibrator::fit(const Key& key) const noexcept {
 }
 
 Result<Calibration> Calibrator::calibrate(const Lens& lens, const wire::CameraConstants& constants) noexcept {
-  if (const auto sound = camera::check(constants); !sound) return tl::unexpected(sound.error());
-  if (const auto sound = check(lens); !sound) return tl::unexpected(sound.error());
+  if (const auto checked = camera::check(constants); !checked) return tl::unexpected(checked.error());
+  if (const auto checked = check(lens); !checked) return tl::unexpected(checked.error());
   const Raster raster = raster_of(constants);
   const Key key{lens.k1, lens.k2, image_reach(lens, raster), std::max(raster.mx, raster.my)};
   const bool kept = fit_ && fit_->key.k1 == key.k1 && fit_->key.k2 == key.k2 && fit_->key.reach == key.reach &&

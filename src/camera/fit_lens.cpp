@@ -110,7 +110,7 @@ bool has_radial_terms(const RadialModel& radial) noexcept {
 
 Result<FittedLens> fit_lens(const std::array<double, 9>& k, const std::vector<double>& d,
                             const wire::CameraConstants& constants) noexcept {
-  if (const auto sound = check(constants); !sound) return tl::unexpected(sound.error());
+  if (const auto checked = check(constants); !checked) return tl::unexpected(checked.error());
   const Result<OpenCvLens> opencv = opencv_lens(k, d);
   if (!opencv) return tl::unexpected(opencv.error());
   const Raster raster = raster_of(constants);
@@ -143,7 +143,7 @@ Result<FittedLens> fit_lens(const std::array<double, 9>& k, const std::vector<do
 
 Result<FittedLens> fit_lens(const Lens& lens, const Undistortion& distortion,
                             const wire::CameraConstants& constants) noexcept {
-  if (const auto sound = check(constants); !sound) return tl::unexpected(sound.error());
+  if (const auto checked = check(constants); !checked) return tl::unexpected(checked.error());
   if (!(lens.image_distance > 0)) return tl::unexpected(CameraReason::bad_field_of_view);
   const Raster raster = raster_of(constants);
   const double reach = image_reach(lens, raster);

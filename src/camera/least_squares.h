@@ -1,18 +1,19 @@
-// Linear least squares for the lens fits. No template: it takes Eigen seconds to compile, and here it does so once.
+// Linear least squares for the lens fits. Not a template: Eigen takes seconds to compile it, and here it is compiled
+// once.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace trk_bridge::camera {
 
-/// Sizes vary up to these, so that nothing allocates.
+/// The largest sizes; with fixed maximum sizes, nothing allocates.
 inline constexpr int most_equations = 64, most_unknowns = 6;
 using Terms = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_equations, most_unknowns>;
 using Values = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_equations, 1>;
 using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_unknowns, 1>;
 
-/// The x that brings `terms` * x closest to `wanted`, by QR with column pivoting. Of columns that depend on others
-/// within rounding only those that count most are used; x is 0 for the others. `terms` has at least as many rows as
+/// The x that minimises |`terms` * x - `wanted`|, by QR with column pivoting. Of columns that are linearly dependent
+/// within rounding, only the most significant are used; x is 0 for the others. `terms` has at least as many rows as
 /// columns.
 [[nodiscard]] Unknowns least_squares(const Terms& terms, const Values& wanted) noexcept;
 

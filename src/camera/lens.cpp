@@ -153,10 +153,10 @@ Result<Eigen::Array2d> convert_shift(const wire::CameraParams& params, const Len
 
 Result<void> check(const CameraConstants& c) noexcept {
   const Eigen::Array4i blanks(c.blank_left, c.blank_right, c.blank_top, c.blank_bottom);
-  const bool sound = c.image_width > 0 && c.image_height > 0 && (blanks >= 0).all() && (picture_size(c) > 0).all() &&
+  const bool valid = c.image_width > 0 && c.image_height > 0 && (blanks >= 0).all() && (picture_size(c) > 0).all() &&
                      chip_size(c).isFinite().all() && (chip_size(c) > 0).all() &&
                      (picture_size(c) / chip_size(c)).isFinite().all();
-  if (!sound) return tl::unexpected(CameraReason::bad_constants);
+  if (!valid) return tl::unexpected(CameraReason::bad_constants);
   return {};
 }
 

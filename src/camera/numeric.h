@@ -8,17 +8,17 @@ namespace trk_bridge::camera {
 
 inline constexpr double degrees_per_radian = 180.0 / M_PI;
 
-/// The i-th of `count` places between 0 and 1 to fit at. They lie in the manner of Chebyshev, which spreads the error
-/// of least squares evenly over the range.
+/// The i-th of `count` nodes between 0 and 1 for a fit. They are Chebyshev nodes, which distribute the error of least
+/// squares evenly over the range.
 inline double chebyshev_node(int i, int count) noexcept { return std::sin((i + 0.5) * (M_PI_2 / count)); }
 
-/// A function's value and slope at one place.
+/// Value and slope of a function at one point.
 struct ValueAndSlope {
   double value = 0, slope = 0;
 };
 
-/// Where an increasing `function` (double to ValueAndSlope) is 0, to the last digits. `low` and `high` enclose the
-/// place, `start` lies between. Newton's steps where they stay inside, halving where they do not.
+/// The root of an increasing `function` (double to ValueAndSlope), to full precision. `low` and `high` enclose the
+/// root, `start` is between them. Uses Newton steps inside of this interval, else bisection.
 template <typename Function>
 double increasing_root(const Function& function, double low, double high, double start) noexcept {
   constexpr int more_than_halving_ever_takes = 2200;

@@ -68,9 +68,9 @@ Eigen::Vector2d OpenCvLens::tangential(const Eigen::Vector2d& undistorted) const
 Result<OpenCvLens> opencv_lens(const std::array<double, 9>& k, const std::vector<double>& d) noexcept {
   const auto finite = [](double value) { return std::isfinite(value); };
   const bool known_size = d.empty() || d.size() == 4 || d.size() == 5 || d.size() == 8;
-  const bool sound = std::all_of(k.begin(), k.end(), finite) && k[0] > 0 && k[4] > 0 && k[1] == 0 && k[3] == 0 &&
+  const bool valid = std::all_of(k.begin(), k.end(), finite) && k[0] > 0 && k[4] > 0 && k[1] == 0 && k[3] == 0 &&
                      k[6] == 0 && k[7] == 0 && k[8] == 1;
-  if (!known_size || !sound || !std::all_of(d.begin(), d.end(), finite)) {
+  if (!known_size || !valid || !std::all_of(d.begin(), d.end(), finite)) {
     return tl::unexpected(CameraReason::bad_calibration);
   }
   std::array<double, 8> all{};

@@ -1,5 +1,5 @@
-// K and D of a CameraInfo: the lens in the terms of OpenCV, undistorted to distorted, and its inverse. Points and radii
-// are in units of the image distance, x right, y down.
+// K and D of a CameraInfo: the lens model of OpenCV, undistorted to distorted, and its inverse. Points and radii are in
+// units of the image distance, x right, y down.
 #pragma once
 
 #include <array>
@@ -18,24 +18,24 @@ struct OpenCvLens {
   double p1 = 0, p2 = 0;
 
   bool is_radial() const noexcept { return p1 == 0 && p2 == 0; }
-  /// Where `pixel` is on the (distorted) image.
+  /// The position of `pixel` on the (distorted) image.
   Eigen::Vector2d on_image(const Eigen::Vector2d& pixel) const noexcept;
-  /// What p1 and p2 add to the distorted point.
+  /// The displacement of the distorted point by p1 and p2.
   Eigen::Vector2d tangential(const Eigen::Vector2d& undistorted) const noexcept;
 };
 
-/// `k` row after row; `d` has 0, 4, 5 or 8 coefficients. Error: bad_calibration.
+/// `k` is row-major; `d` has 0, 4, 5 or 8 coefficients. Error: bad_calibration.
 [[nodiscard]] Result<OpenCvLens> opencv_lens(const std::array<double, 9>& k, const std::vector<double>& d) noexcept;
 
-/// The inverse of a lens over the disc of its distorted radii up to a reach.
+/// The inverse of a lens for distorted radii up to a reach.
 class LensInverse {
  public:
-  /// not_monotonic where the radial part folds within the reach, or does not get there.
+  /// not_monotonic if the radial part folds within the reach, or never reaches it.
   [[nodiscard]] static Result<LensInverse> over(const OpenCvLens&, double reach) noexcept;
 
-  /// Of the radial part alone, to the last digits; `distorted` is 0 to the reach.
+  /// For the radial part only, to full precision; `distorted` is 0 to the reach.
   double undistorted_radius(double distorted) const noexcept;
-  /// Of the whole lens, to the last digits. not_monotonic where p1 and p2 fold it between the axis and there.
+  /// For the complete lens, to full precision. not_monotonic if p1 and p2 fold it between the axis and the point.
   [[nodiscard]] Result<Eigen::Vector2d> undistorted(const Eigen::Vector2d& distorted) const noexcept;
 
  private:

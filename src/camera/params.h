@@ -1,4 +1,4 @@
-// Pose and lens of a parameter record, each by itself: read, written and converted (pose.cpp, lens.cpp).
+// Reads, writes and converts the pose and the lens of a parameter record (pose.cpp, lens.cpp).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -7,27 +7,27 @@
 
 namespace trk_bridge::camera {
 
-/// Writes `matrix` or `euler` of `params` as `params.format` says; the other one is not touched. Refuses
-/// (not_a_rotation, not_finite) what is not a pose.
+/// Writes `matrix` or `euler` of `params`, as selected by `params.format`; the other one is not changed. Errors:
+/// not_a_rotation, not_finite.
 [[nodiscard]] Result<void> encode_pose(const Eigen::Isometry3d& pose, wire::CameraParams& params) noexcept;
 
-/// The pose of `params` in the format of `out`: the very doubles where the options that they depend on agree, the very
-/// angles from Euler to Euler. `pose` is decode_pose(params).
+/// Writes the pose of `params` in the format of `out`. The doubles are copied unchanged if the options that they depend
+/// on are the same, as are the angles from Euler to Euler. `pose` is decode_pose(params).
 [[nodiscard]] Result<void> convert_pose(const wire::CameraParams& params, const Result<Eigen::Isometry3d>& pose,
                                         wire::CameraParams& out) noexcept;
 
-/// What fov is: an angle over `side` mm of chip, or, where that is 0, the image distance.
+/// The meaning of fov: an angle over `side` mm of chip, or the image distance if `side` is 0.
 struct FovTerms {
   double side = 0;
 };
 
-/// What the centre shift is: (shift - offset) * scale, with the shift in mm on the chip.
+/// The meaning of the centre shift: (shift - offset) * scale, with the shift in mm on the chip.
 struct ShiftTerms {
   Eigen::Array2d offset = Eigen::Array2d::Zero();
   Eigen::Array2d scale = Eigen::Array2d::Ones();
 };
 
-/// What needs constants in a record's lens, each number with the terms that it was read by.
+/// The values of a lens that need constants, with the terms that were used to read them.
 struct LensParts {
   Result<FovTerms> fov_terms;
   Result<ShiftTerms> shift_terms;
@@ -36,15 +36,15 @@ struct LensParts {
 };
 [[nodiscard]] LensParts lens_parts(const wire::CameraParams&, const wire::CameraConstants* constants) noexcept;
 
-/// The whole lens of `params`, of which `parts` are the parts.
+/// The complete lens of `params`; `parts` are the parts of `params`.
 [[nodiscard]] Result<Lens> decode_lens(const wire::CameraParams& params, const LensParts& parts) noexcept;
 
-/// Writes fov, centre shift, k1, k2, focdist and aperture of `params` as `params.format` says.
+/// Writes fov, centre shift, k1, k2, focdist and aperture of `params` in the format `params.format`.
 [[nodiscard]] Result<void> encode_lens(const Lens&, const wire::CameraConstants* constants,
                                        wire::CameraParams& params) noexcept;
 
-/// The lens of `params` in the format of `out`. Field of view and centre shift each keep their very doubles where
-/// neither the options nor the constants they depend on differ. `parts` are those of `params`.
+/// Writes the lens of `params` in the format of `out`. Field of view and centre shift are each copied unchanged if the
+/// options and constants that they depend on are the same. `parts` are those of `params`.
 [[nodiscard]] Result<void> convert_lens(const wire::CameraParams& params, const LensParts& parts,
                                         const wire::CameraConstants* outgoing, wire::CameraParams& out) noexcept;
 

@@ -1,5 +1,5 @@
-// Radial distortion from undistorted to distorted in the terms of OpenCV, fitted to the document's polynomial.
-// Scale-free: all radii are in units of the farthest undistorted one.
+// Radial distortion from undistorted to distorted in the model of OpenCV, fitted to the polynomial of the document. All
+// radii are in units of the largest undistorted one.
 #pragma once
 
 #include <array>
@@ -27,9 +27,9 @@ struct RadialFit {
   double residual = 0;  ///< worst error of the distorted radius
 };
 
-/// For r_u = r_d (1 + a1 r_d^2 + a2 r_d^4), increasing over 0 <= r_d <= reach, where r_u is 1. plumb_bob where its
-/// residual is at most `tolerance`, else what is best of it and rational_polynomials without a pole up to there,
-/// however far off that is. no_fit when it is not finite.
+/// Fits r_u = r_d (1 + a1 r_d^2 + a2 r_d^4), which must increase for 0 <= r_d <= reach, with r_u = 1 at reach. Returns
+/// plumb_bob if its residual is at most `tolerance`, else the best of plumb_bob and of rational_polynomials without a
+/// pole in this range, even if its residual is large. no_fit if the result is not finite.
 [[nodiscard]] Result<RadialFit> fit_radial(double a1, double a2, double reach, double tolerance) noexcept;
 
 }  // namespace trk_bridge::camera

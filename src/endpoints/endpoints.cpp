@@ -41,7 +41,7 @@ struct Parsed {
 };
 
 /// What a text without a known scheme was probably meant to be; empty: nothing comes near.
-std::string meant_by(const std::string& text, const Url& url) {
+std::string suggestion_for(const std::string& text, const Url& url) {
   if (transport::whole_number(text, 0, 61)) return "shm:" + text;
   if (transport::whole_number(text, 1, 65535)) return "udp://:" + text;
   // A host and a port, the port alone, or an IPv6 address in brackets.
@@ -64,9 +64,9 @@ tl::expected<Parsed, std::string> parsed(std::string_view text) {
       std::find_if(all_schemes.begin(), all_schemes.end(), [&](const Scheme* s) { return s->name == url->scheme; });
   if (scheme == all_schemes.end()) {
     std::string error = url->scheme.empty() ? std::string("no scheme") : "unknown scheme \"" + url->scheme + "\"";
-    const std::string meant = text.empty() ? "" : meant_by(std::string(text), *url);
-    if (!meant.empty()) error += ", did you mean " + meant + "?";
-    return tl::make_unexpected(error + (meant.empty() ? ": allowed are " : " Allowed are ") + usages());
+    const std::string suggestion = text.empty() ? "" : suggestion_for(std::string(text), *url);
+    if (!suggestion.empty()) error += ", did you mean " + suggestion + "?";
+    return tl::make_unexpected(error + (suggestion.empty() ? ": allowed are " : " Allowed are ") + usages());
   }
   return Parsed{*std::move(url), *scheme};
 }
@@ -105,7 +105,7 @@ std::optional<Delay> delay_from(std::string_view text) {
 
 /// Adds the preset's options of the scheme, where the URL does not say otherwise. The error is that it is for another
 /// scheme.
-tl::expected<void, std::string> follow(const Preset& preset, Url& url) {
+tl::expected<void, std::string> apply_preset(const Preset& preset, Url& url) {
   if (preset.scheme.empty()) return {};
   if (preset.scheme != url.scheme) {
     return tl::make_unexpected("the preset " + preset.name + " is for " + preset.scheme + ", and not for " +
@@ -154,7 +154,7 @@ tl::expected<SinkForm, std::string> extract_form(Url& url) {
     if (!preset) return tl::make_unexpected("option preset: " + preset.error());
     form.format = preset->format;
     form.sends_id = preset->sends_id;
-    if (const auto followed = follow(*preset, url); !followed) return tl::make_unexpected(followed.error());
+    if (const auto applied = apply_preset(*preset, url); !applied) return tl::make_unexpected(applied.error());
   }
   if (id) {
     constexpr std::uint32_t largest = std::numeric_limits<std::uint32_t>::max();
@@ -171,7 +171,7 @@ tl::expected<SinkForm, std::string> extract_form(Url& url) {
 }
 
 template <typename Endpoint>
-tl::expected<Endpoint, std::string> located(std::string_view url, tl::expected<Endpoint, std::string> endpoint) {
+tl::expected<Endpoint, std::string> with_url(std::string_view url, tl::expected<Endpoint, std::string> endpoint) {
   if (!endpoint) return tl::make_unexpected("endpoint \"" + std::string(url) + "\": " + endpoint.error());
   endpoint->url = url;
   return endpoint;
@@ -187,7 +187,7 @@ tl::expected<SinkEndpoint, std::string> sink_endpoint(std::string_view text, std
   if (!has_format && !default_preset.empty()) {
     const auto preset = find_preset(default_preset);
     if (!preset) return tl::make_unexpected(preset.error());
-    if (const auto followed = follow(*preset, url->url); !followed) return tl::make_unexpected(followed.error());
+    if (const auto applied = apply_preset(*preset, url->url); !applied) return tl::make_unexpected(applied.error());
   }
   const auto form = extract_form(url->url);
   if (!form) return tl::make_unexpected(form.error());
@@ -221,11 +221,11 @@ std::string usages() {
 }
 
 tl::expected<SourceEndpoint, std::string> parse_source(std::string_view url) {
-  return located(url, source_endpoint(url));
+  return with_url(url, source_endpoint(url));
 }
 
 tl::expected<SinkEndpoint, std::string> parse_sink(std::string_view url, std::string_view default_preset) {
-  return located(url, sink_endpoint(url, default_preset));
+  return with_url(url, sink_endpoint(url, default_preset));
 }
 
 std::unique_ptr<transport::Source> open_source(std::string_view url, double field_rate) {

@@ -63,8 +63,8 @@ Read<void> read_scheme(const YAML::Node& node, Preset& preset) {
 
 Read<Preset> preset_of(const std::string& name, const YAML::Node& node) {
   if (!node.IsMap()) return tl::unexpected(YamlFault{node.Mark(), "must be a map of format, sends_id and quirks"});
-  const auto sound = base::check_yaml_keys(node, {"format", "sends_id", "quirks"}, {"scheme", "options"});
-  if (!sound) return tl::unexpected(sound.error());
+  const auto checked = base::check_yaml_keys(node, {"format", "sends_id", "quirks"}, {"scheme", "options"});
+  if (!checked) return tl::unexpected(checked.error());
   const auto format = format_of(base::yaml_value(node, "format"));
   if (!format) return tl::unexpected(format.error());
   const auto sends_id = flag_of(base::yaml_value(node, "sends_id"));

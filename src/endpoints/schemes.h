@@ -8,13 +8,13 @@
 
 namespace trk_bridge::endpoints {
 
-/// Every scheme there is.
+/// All schemes.
 const std::array<const transport::Scheme*, 5>& schemes();
 
-/// How their URLs begin: "udp://", "shm:", …
+/// The beginning of its URLs: "udp://", "shm:", …
 std::string prefix_of(const transport::Scheme&);
 
-/// How their URLs look: "udp://HOST:PORT, … and file:PATH".
+/// The forms of all URLs: "udp://HOST:PORT, … and file:PATH".
 std::string usages();
 
 }  // namespace trk_bridge::endpoints

@@ -1,4 +1,4 @@
-// A file that has its final name only when it is whole.
+// A file that gets its final name only when it is complete.
 #pragma once
 
 #include <cstddef>
@@ -16,29 +16,29 @@ namespace trk_bridge::file {
 
 /// Whether a file may be a FIFO.
 enum class Fifo : std::uint8_t { refused, allowed };
-/// Whether a `.part` may be there before.
+/// Whether an existing `.part` may be used.
 enum class Part : std::uint8_t { taken_over, refused };
 
-/// Written as `PATH.part`. A writer that dies leaves nothing under the final name, and what it wrote in `PATH.part`. A
-/// FIFO has no part: it is written as it is. One thread at a time; nothing but open() allocates.
+/// Written as `PATH.part`. If a writer dies, its data stays in `PATH.part`, and there is no file with the final name. A
+/// FIFO is written directly. One thread at a time; only open() allocates.
 class PartFile {
  public:
   struct Options {
-    bool overwrite = false;  ///< what has the final name, or is left in a `.part`, may be replaced
+    bool overwrite = false;  ///< an existing file or a remaining `.part` may be replaced
     Fifo fifo = Fifo::refused;
-    Part part = Part::taken_over;  ///< refused: one that exists makes the name in_use, even when it is empty
+    Part part = Part::taken_over;  ///< refused: the fault is in_use if one exists, even if it is empty
   };
 
-  /// Creates an empty `path`.part, locked against other writers for as long as it is open; the kernel unlocks it when a
-  /// writer dies. Faults: exists, left_over, in_use, not_a_file, no_reader, or the system's. Of a FIFO it does not wait
-  /// for a reader.
+  /// Creates an empty `path`.part, which is locked against other writers while it is open; the kernel unlocks it when a
+  /// writer dies. Faults: exists, left_over, in_use, not_a_file, no_reader, system. Does not wait for the reader of a
+  /// FIFO.
   static tl::expected<PartFile, transport::SinkFault> open(const std::string& path, const Options&);
-  /// What open() would say because of the final name, so that it is known before long work.
+  /// The fault that open() would return because of the final name, for a check before long work.
   static tl::expected<void, transport::SinkFault> check(const std::string& path, const Options&);
 
-  /// None.
+  /// No file.
   PartFile() = default;
-  /// Closes it; what was not published stays as the `.part`.
+  /// Closes it; without publish(), the `.part` remains.
   ~PartFile() = default;
   PartFile(PartFile&&) = default;
   PartFile& operator=(PartFile&&) = default;
@@ -47,16 +47,16 @@ class PartFile {
   bool is_fifo() const noexcept { return is_fifo_; }
   int fd() const noexcept { return descriptor_.get(); }
   const std::string& path() const noexcept { return path_; }
-  /// Where it is written before it is whole.
+  /// The name of the incomplete file.
   const std::string& part() const noexcept { return part_; }
 
-  /// All of `bytes` at this place of the file (of a FIFO, behind what was written before). The error is an errno.
+  /// Writes all of `bytes` at this offset (in a FIFO: after the previous bytes). The error is an errno.
   [[nodiscard]] tl::expected<void, int> write(std::string_view bytes, std::int64_t at) noexcept;
 
-  /// Cuts it to `size` bytes where that is given, brings everything to the disk, gives the file its final name and
-  /// closes it. The error is an errno; the `.part` then stays.
+  /// Truncates it to `size` bytes if given, syncs it to the disk, gives it its final name and closes it. The error is
+  /// an errno; then the `.part` remains.
   [[nodiscard]] tl::expected<void, int> publish(std::optional<std::int64_t> size = std::nullopt) noexcept;
-  /// Closes it, and nothing stays.
+  /// Closes and deletes it.
   void discard() noexcept;
 
  private:
@@ -70,14 +70,14 @@ class PartFile {
   transport::Descriptor descriptor_;
 };
 
-/// `path` is of a `.part`. Where a dead writer left it, it is published up to its last whole line as
-/// `NAME.recovered.trk` (`NAME.recovered-2.trk` where that exists, …); the new name. One without any field is removed.
-/// None where nothing was published.
+/// `path` is a `.part`. If its writer is dead, publishes it up to the last complete line as `NAME.recovered.trk` (or
+/// `NAME.recovered-2.trk` if that exists, …), and returns the new name. Deletes one without any field. None if nothing
+/// was published.
 std::optional<std::string> recover_part(const std::string& path);
 
-/// The directory that a path names a file in, with its slash; "./" where it names none.
+/// The directory of a path, with its slash; "./" if the path has none.
 std::string directory_of(const std::string& path);
-/// Where the ending of the file's name begins: at its last dot, or at the end where it has none.
+/// The position of the file extension: of the last dot in the name, or the end if there is none.
 std::size_t ending_of(const std::string& path);
 
 }  // namespace trk_bridge::file

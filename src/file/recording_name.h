@@ -1,4 +1,4 @@
-// What recordings are called: names with the time of their first field, and numbers.
+// Names of recordings, with the time of their first field or with numbers.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@
 
 namespace trk_bridge::file {
 
-/// `crane-%Y%m%d-%H%M%S.trk`: of strftime's conversions, %Y %y %m %d %j %H %M %S, of the UTC time of the first field.
-/// Other bytes may be written as %XX as in every URL; one that begins with a D must have it as a capital, since %d is
-/// the day.
+/// `crane-%Y%m%d-%H%M%S.trk`: the conversions %Y %y %m %d %j %H %M %S of strftime, for the UTC time of the first field.
+/// Other bytes may be written as %XX, as in every URL; if XX begins with a D, it must be a capital, because %d is the
+/// day.
 class RecordingName {
  public:
-  /// `text` as it stands in a URL. The error names it and says what is allowed.
+  /// `text` as in a URL. The error names it and what is allowed.
   static tl::expected<RecordingName, std::string> parse(std::string_view text);
 
-  /// Whether it depends on the time.
+  /// Whether the name depends on the time.
   bool has_time() const noexcept { return has_time_; }
-  /// With the time filled in, nanoseconds since 1970. Empty where the name is too long for any file.
+  /// The name for a time, nanoseconds since 1970. Empty if the name is too long for a file.
   std::string at(std::int64_t time) const;
-  /// With the conversions as they are.
+  /// The name with its conversions, for users.
   std::string shown() const;
-  /// A pattern for glob(3) of all names that it can have, between the begin and the end of what else is in the name.
+  /// A pattern for glob(3) that matches all names that it can have.
   std::string pattern() const;
 
  private:
@@ -34,12 +34,12 @@ class RecordingName {
   bool has_time_ = false;
 };
 
-/// `take.trk` with the number that follows the highest that a file of such a name has, as `take-001.trk`, whatever else
-/// the file's name ends in. No other writer gets the same. no_free_number after 9999.
+/// Opens `take-001.trk` for `take.trk`, with the number after the highest one of any file with such a name and any
+/// further extension. No other writer gets the same number. no_free_number after 9999.
 OpenedFile open_next_number(const std::string& path);
 
-/// Publishes what dead writers left of recordings with such names (recover_part), with a number in them or not; the new
-/// names.
+/// Publishes the unfinished recordings of dead writers with such names (recover_part), with or without numbers. Returns
+/// the new names.
 std::vector<std::string> recover_parts(const RecordingName&, bool numbered);
 
 }  // namespace trk_bridge::file

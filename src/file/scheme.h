@@ -1,4 +1,4 @@
-// Takes: the scheme file.
+// The scheme file: takes.
 #pragma once
 
 #include <cstdint>
@@ -16,31 +16,31 @@ namespace trk_bridge::file {
 
 /// Time of the samples of a file.
 enum class FileTime : std::uint8_t {
-  timecode,  ///< the time code of the first field on `date`, plus the fields since
-  now,       ///< the moment a sample is handed out
+  timecode,  ///< the time code of the first field on `date`, plus the time of the fields since then
+  now,       ///< the time when a sample is returned
 };
 
-/// Midnight of 2249-12-31, seconds since 1970: nanoseconds since 1970 end in 2262, and a take goes on for a while.
+/// Midnight of 2249-12-31, seconds since 1970: nanoseconds since 1970 overflow in 2262, and a take needs some time.
 inline constexpr std::int64_t latest_date = 8'835'868'800;
 
 /// `file:PATH?rate=…&speed=…&loop=1&time=…&date=…&lenient=1`, to play a take.
 struct SourceSettings {
   std::string path;
-  std::optional<double> rate;  ///< Hz, 0.001 to 100000: video fields a second
+  std::optional<double> rate;  ///< Hz, 0.001 to 100000: video fields per second
   double speed = 1.0;          ///< 0.001 to 1000; 0: as fast as possible
   bool loop = false;
   FileTime time = FileTime::timecode;
   std::optional<std::int64_t>
-      date;              ///< midnight UTC, seconds since 1970, at most latest_date; default the day of opening
-  bool lenient = false;  ///< lines that are not sound are left out
+      date;              ///< midnight UTC, seconds since 1970, at most latest_date; default: the day of opening
+  bool lenient = false;  ///< malformed lines are skipped
 };
 
 /// `file:PATH?timecode=…&rate=…&number=1&overwrite=1`, to record a take.
 struct SinkSettings {
   RecordingName path;
-  std::optional<base::TimeCode> time_code;  ///< of the first field; default its own, else its time of day, UTC
+  std::optional<base::TimeCode> time_code;  ///< of the first field; default: its own one, else its time of day, UTC
   double rate = 50;                         ///< Hz, 1 to 200, of the default time code
-  bool number = false;                      ///< the next free number in the name
+  bool number = false;                      ///< add the next free number to the name
   bool overwrite = false;                   ///< not together with `number`
 };
 
@@ -48,10 +48,10 @@ struct SinkSettings {
 tl::expected<SourceSettings, std::string> source_settings(const transport::Url&);
 tl::expected<SinkSettings, std::string> sink_settings(const transport::Url&);
 
-/// Throws TransportError. A FIFO is opened at once, its lines are read as they come. `field_rate` (Hz) counts where the
+/// Throws TransportError. A FIFO is opened at once; its lines are read as they arrive. `field_rate` (Hz) is used if the
 /// settings have no `rate`.
 std::unique_ptr<transport::Source> open_source(const SourceSettings&, double field_rate);
-/// The file is not open yet (Sink::prepare). One that cannot be opened is tried again by writes, at most every second.
+/// Does not open the file yet (see Sink::prepare). If it cannot be opened, writes try again, at most every second.
 std::unique_ptr<transport::Sink> open_sink(const SinkSettings&);
 
 extern const transport::Scheme scheme;

@@ -1,4 +1,4 @@
-// Writing a take, line by line.
+// Writes a take, line by line.
 #pragma once
 
 #include <cstdint>
@@ -15,63 +15,63 @@
 
 namespace trk_bridge::file {
 
-/// The file, or why there is none.
+/// The file, or the reason why it cannot be opened.
 using OpenedFile = tl::expected<PartFile, transport::SinkFault>;
-/// For a take of that name. What a dead writer left of one before is published first (recover_part).
+/// Opens a take of that name. First publishes the unfinished take of a dead writer (recover_part).
 OpenedFile open_take(const std::string& path, bool overwrite);
 
-/// Writes a take into `PATH.part`, which gets its final name only when it is whole. Every line is one write: of a
-/// writer that is killed, all lines up to the last whole one are in `PATH.part`. The lines before the first field are
-/// written together with it, so that until then the time code and the constants may still change. One thread at a time;
-/// writing allocates nothing but for the first field.
+/// Writes a take to `PATH.part`, which gets its final name only when it is complete. Every line is one write: if the
+/// writer is killed, all lines up to the last complete one are in `PATH.part`. The lines before the first field are
+/// written together with it, so that the time code and the constants may change until then. One thread at a time; only
+/// writing the first field allocates.
 class TakeWriter {
  public:
-  /// Without a file: takes constants, and says `closed` to parameters.
+  /// Without a file: accepts constants, and refuses parameters with `closed`.
   TakeWriter();
-  /// With the file open. Throws transport::TransportError.
+  /// Opens the file. Throws transport::TransportError.
   TakeWriter(const std::string& path, const base::TimeCode&, bool overwrite);
-  /// As close(), but cannot say how it went.
+  /// As close(), but cannot report errors.
   ~TakeWriter();
   TakeWriter(const TakeWriter&) = delete;
   TakeWriter& operator=(const TakeWriter&) = delete;
 
-  /// Begins a take in this file. Where that fails, nothing stays of it.
+  /// Begins a take in this file. If that fails, the file is deleted.
   [[nodiscard]] transport::Written open(PartFile);
   bool is_open() const noexcept { return file_.is_open(); }
-  /// Of the first field: counts while there is none.
+  /// The time code of the first field. No effect after that field.
   void set_time_code(const base::TimeCode& code) noexcept { time_code_ = code; }
   bool has_constants() const noexcept { return constants_.has_value(); }
   bool has_fields() const noexcept { return has_fields_; }
 
-  /// Before the first parameters; until then, newer ones of the same id take the place of older ones. After them the
-  /// same again is no fault and writes nothing, others of that id are constants_changed, as are all parameters until
-  /// the first ones come again. Other ids are other_camera.
+  /// Constants come before the first parameters; until then, newer ones of the same id replace older ones. Afterwards,
+  /// equal ones are accepted and write nothing. Different ones of that id are a constants_changed fault, as are all
+  /// parameters until the first constants come again. Other ids are other_camera.
   [[nodiscard]] transport::Written write(const wire::CameraConstants&);
-  /// One video field, of the constants' id; constants with id 0 serve any camera, the first one's id counting from then
-  /// on. no_constants before the constants. A line that could not be written whole is not in the file. A FIFO that has
-  /// lost its reader is closed.
+  /// Writes one video field; its id must be that of the constants. If that is 0, the id of the first field is used from
+  /// then on. no_constants before the constants. A line that could not be written completely is not in the file. A FIFO
+  /// that has lost its reader is closed.
   [[nodiscard]] transport::Written write(const wire::CameraParams&);
-  /// Brings everything to the disk and gives the file its final name. Without constants there is no take: no_constants,
-  /// and nothing stays. When the system refuses, `PATH.part` stays as it is. Closing again does nothing.
+  /// Syncs the file to the disk and gives it its final name. Without constants, the result is no_constants and the file
+  /// is deleted. If a system call fails, `PATH.part` remains. Closing again does nothing.
   [[nodiscard]] transport::Written close();
 
-  /// Ends it without a trace, for a take that turned out to be of no use.
+  /// Ends and deletes a take that is not wanted.
   void discard() noexcept;
 
   const std::string& path() const noexcept { return file_.path(); }
 
  private:
-  /// The lines between the first one and the fields.
+  /// The lines between the first line and the fields.
   tl::expected<std::string, transport::SinkFault> head();
   transport::Written append(std::string_view lines);
   transport::Written finish();
 
   PartFile file_;
   base::TimeCode time_code_;
-  std::int64_t size_ = 0;  // of the whole lines; what lies behind is what is left of a failed write
+  std::int64_t size_ = 0;  // of the complete lines; bytes after them are the rest of a failed write
   std::optional<wire::CameraConstants> constants_;
-  std::optional<std::uint32_t> camera_;  // of the parameters written
-  bool constants_hold_ = false;          // no others have come since
+  std::optional<std::uint32_t> camera_;  // the id of the parameters written
+  bool constants_hold_ = false;          // no other constants have come since
   bool has_fields_ = false;
   bool ended_ = false;
   wire::Buffer buffer_{};

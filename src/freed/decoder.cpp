@@ -50,13 +50,13 @@ transport::Decoder::Next Decoder::next(transport::Sample& into, transport::Fault
         options_.table->lens_at({static_cast<double>(*into.encoders.zoom), static_cast<double>(*into.encoders.focus)});
     if (!lens && *into.doubt == '\0') into.doubt = "the lens encoders are beyond the lens table";
   }
-  if (tells_lens(options_.profile)) {
-    const auto told = lens_of(m);
-    if (lens && told) {
-      lens->aperture = told->aperture;
-      if (!options_.table->has_distances()) lens->focdist = told->focdist;
+  if (sends_lens(options_.profile)) {
+    const auto sent = lens_of(m);
+    if (lens && sent) {
+      lens->aperture = sent->aperture;
+      if (!options_.table->has_distances()) lens->focdist = sent->focdist;
     } else if (!options_.table) {
-      lens = told;
+      lens = sent;
     }
   }
   into.has_lens = lens.has_value();

@@ -1,4 +1,4 @@
-// Free-D's datagrams to samples.
+// Decodes Free-D datagrams to samples.
 #pragma once
 
 #include <array>
@@ -13,16 +13,16 @@
 
 namespace trk_bridge::freed {
 
-/// What is not in the messages, and what is made of them.
+/// How messages are interpreted.
 struct DecoderOptions {
   Profile profile = Profile::generic;
-  std::shared_ptr<const lens::Table> table;  ///< null: counts have no meaning
-  bool lenient = false;                      ///< a wrong checksum is a doubt and not a fault
+  std::shared_ptr<const lens::Table> table;  ///< null: encoder counts have no meaning
+  bool lenient = false;                      ///< a wrong checksum is a Sample::doubt and not a fault
 };
 
-/// One sample a datagram, of Euler angles and image distance, numbered as they come, with a lens where the table or the
-/// profile gives one; and before it, for the first and every `constants_every` of a camera, the constants of the table
-/// where it has any.
+/// One sample per datagram, with Euler angles and image distance and a running number as its counter. It has a lens if
+/// the table or the profile gives one. Before the first sample of a camera, and before every `constants_every`-th, the
+/// constants of the table are returned, if it has any.
 class Decoder final : public transport::Decoder {
  public:
   static constexpr std::uint64_t constants_every = 50;
@@ -42,7 +42,7 @@ class Decoder final : public transport::Decoder {
   std::string_view datagram_;
   State state_ = State::done;
   Read read_;
-  std::array<std::uint64_t, 256> messages_{};  // by camera: how many have come
+  std::array<std::uint64_t, 256> messages_{};  // received messages by camera
 };
 
 }  // namespace trk_bridge::freed

@@ -103,7 +103,7 @@ tl::expected<void, Fault> Encoder::set_optics(const camera::Lens& lens, Message&
     encoders.focus = static_cast<std::int32_t>(std::lround(position->focus));
     return set_encoders(encoders, options_.profile, message);
   }
-  if (tells_lens(options_.profile)) return set_lens(lens, message);
+  if (sends_lens(options_.profile)) return set_lens(lens, message);
   return set_encoders({}, options_.profile, message);
 }
 

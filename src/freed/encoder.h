@@ -1,4 +1,4 @@
-// Records to Free-D's datagrams.
+// Encodes records to Free-D datagrams.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@ namespace trk_bridge::freed {
 
 struct EncoderOptions {
   Profile profile = Profile::generic;
-  std::shared_ptr<const lens::Table> table;  ///< null: zoom and focus are 0, unless the profile tells the lens itself
-  bool unwrap = true;                        ///< pan goes on past 180 degrees as far as the message reaches
+  std::shared_ptr<const lens::Table> table;  ///< null: zoom and focus are 0, unless the profile sends the lens itself
+  bool unwrap = true;                        ///< pan continues beyond 180 degrees within the range of the message
 };
 
-/// One datagram for parameters of any format, none for constants: they are only remembered for formats that need them.
-/// Cameras are told apart by their ids, which have to be 1 to 255.
+/// One datagram for parameters of any format, none for constants, which are only stored for formats that need them. The
+/// id is the camera number and must be 1 to 255.
 class Encoder final : public transport::Encoder {
  public:
   explicit Encoder(EncoderOptions options) : options_(std::move(options)) {}
@@ -34,7 +34,7 @@ class Encoder final : public transport::Encoder {
  private:
   struct Camera {
     camera::Converter converter;
-    std::optional<std::int32_t> pan;  // of the message before
+    std::optional<std::int32_t> pan;  // of the previous message
     std::uint64_t frames = 0;
   };
 

@@ -99,7 +99,7 @@ tl::expected<SinkSettings, std::string> sink_settings(const transport::Url& url)
                                           transport::send_options, sink_options);
   if (!set) return tl::make_unexpected(set.error());
   settings.constants_period = 0;
-  if (settings.lens.empty() && !tells_lens(settings.profile)) {
+  if (settings.lens.empty() && !sends_lens(settings.profile)) {
     return tl::make_unexpected(
         std::string("option lens is missing: zoom and focus of this profile are counts of encoders, which a lens table "
                     "gives (lens=FILE.yaml); lens=none sends 0 for both"));

@@ -1,4 +1,4 @@
-// Free-D D1 over UDP: the scheme freed (doc/free_d.md).
+// The scheme freed: Free-D D1 over UDP (doc/free_d.md).
 #pragma once
 
 #include <string>
@@ -12,18 +12,18 @@
 
 namespace trk_bridge::freed {
 
-/// `freed://[host]:port?profile=…&lens=FILE.yaml&checksum=…` and those of every UDP source, to read from.
+/// `freed://[host]:port?profile=…&lens=FILE.yaml&checksum=…` and the options of every UDP source, to read from.
 struct SourceSettings : transport::ReceiveSettings, DecoderOptions {
   std::string lens;  ///< path of the table; empty: none
 };
 
-/// `freed://host:port?profile=…&lens=FILE.yaml&unwrap=0` and those of every UDP sink, to write to. Where the profile
-/// has counts, `lens` must be given; `lens=none` says that zoom and focus are to be 0.
+/// `freed://host:port?profile=…&lens=FILE.yaml&unwrap=0` and the options of every UDP sink, to write to. `lens` is
+/// required if the profile has counts; with `lens=none`, zoom and focus are 0.
 struct SinkSettings : transport::SendSettings, EncoderOptions {
   std::string lens;  ///< path of the table, or none
 };
 
-/// They load the lens table. Errors name the part of the URL, its value and what is allowed.
+/// These load the lens table. Errors name the part of the URL, its value and what is allowed.
 tl::expected<SourceSettings, std::string> source_settings(const transport::Url&);
 tl::expected<SinkSettings, std::string> sink_settings(const transport::Url&);
 

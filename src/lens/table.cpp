@@ -79,8 +79,8 @@ Read<wire::CameraConstants> constants_of(const YamlValue& value) {
     if (!number) return tl::unexpected(number.error());
     *to = *number;
   }
-  if (const auto sound = camera::check(constants); !sound) {
-    return fault(value.mark, "constants: " + camera::describe(sound.error()));
+  if (const auto checked = camera::check(constants); !checked) {
+    return fault(value.mark, "constants: " + camera::describe(checked.error()));
   }
   return camera::constants_for(constants, wire::euler);
 }
@@ -132,7 +132,7 @@ Read<Point> point_of(const YAML::Node& row, const std::optional<wire::CameraCons
 }
 
 /// Whether `to` goes on from `from` in the direction of `sign`, which is 0 at first.
-bool goes_on(double from, double to, int& sign) {
+bool is_monotonic_step(double from, double to, int& sign) {
   const int step = to > from ? 1 : to < from ? -1 : 0;
   if (sign == 0) sign = step;
   return step != 0 && step == sign;
@@ -166,7 +166,7 @@ Read<std::vector<Point>> points_of(const YamlValue& rows, const std::optional<wi
         return fault(row.Mark(), "zoom " + text_of(point->at.zoom) + ": must be more than that of the row before, " +
                                      text_of(before.at.zoom));
       }
-      if (!goes_on(before.lens.image_distance, point->lens.image_distance, sign)) {
+      if (!is_monotonic_step(before.lens.image_distance, point->lens.image_distance, sign)) {
         return fault(row.Mark(), "zoom " + text_of(point->at.zoom) +
                                      ": the focal length must rise with zoom, or fall, " + "in all rows alike");
       }
@@ -195,7 +195,7 @@ Read<std::vector<FocusPoint>> focus_of(const YamlValue& rows) {
     if (!all.empty() && !(*count > all.back().count)) {
       return fault(row.Mark(), "count " + text_of(*count) + ": must be more than that of the row before");
     }
-    if (!all.empty() && !goes_on(all.back().distance, *distance, sign)) {
+    if (!all.empty() && !is_monotonic_step(all.back().distance, *distance, sign)) {
       return fault(row.Mark(),
                    "distance " + text_of(*distance) + ": must rise with the count, or fall, in all rows alike");
     }
@@ -251,7 +251,7 @@ double slope_at_end(double h0, double h1, double d0, double d1) {
 }
 
 /// `at` within the range, which is extended by some play; none beyond.
-std::optional<double> held(double at, double first, double last) noexcept {
+std::optional<double> clamped(double at, double first, double last) noexcept {
   const double beyond = play * (last - first);
   if (!(at >= first - beyond && at <= last + beyond)) return std::nullopt;
   return std::clamp(at, first, last);
@@ -267,7 +267,7 @@ std::size_t interval_of(const List& list, double at, const Key& key) noexcept {
   }
   return low;
 }
-constexpr auto itself = [](double number) { return number; };
+constexpr auto identity = [](double number) { return number; };
 constexpr auto count_of = [](const FocusPoint& point) { return point.count; };
 
 }  // namespace
@@ -326,7 +326,7 @@ std::pair<double, double> Table::focus_range() const noexcept {
 }
 
 Table::Values Table::slice_at(std::size_t focus, double zoom) const noexcept {
-  const std::size_t i = interval_of(zooms_, zoom, itself);
+  const std::size_t i = interval_of(zooms_, zoom, identity);
   const Knot& a = knots_[focus * zooms_.size() + i];
   const Knot& b = knots_[focus * zooms_.size() + i + 1];
   const double length = zooms_[i + 1] - zooms_[i];
@@ -339,23 +339,23 @@ Table::Values Table::slice_at(std::size_t focus, double zoom) const noexcept {
 
 Table::Values Table::values_at(const Position& at) const noexcept {
   if (focuses_.size() == 1) return slice_at(0, at.zoom);
-  const std::size_t i = interval_of(focuses_, at.focus, itself);
+  const std::size_t i = interval_of(focuses_, at.focus, identity);
   const double t = (at.focus - focuses_[i]) / (focuses_[i + 1] - focuses_[i]);
   return (1 - t) * slice_at(i, at.zoom) + t * slice_at(i + 1, at.zoom);
 }
 
 std::optional<camera::Lens> Table::lens_at(const Position& at) const noexcept {
-  const auto zoom = held(at.zoom, zooms_.front(), zooms_.back());
+  const auto zoom = clamped(at.zoom, zooms_.front(), zooms_.back());
   if (!zoom) return std::nullopt;
   Position inside{*zoom, 0};
   if (focuses_.size() > 1) {
-    const auto focus = held(at.focus, focuses_.front(), focuses_.back());
+    const auto focus = clamped(at.focus, focuses_.front(), focuses_.back());
     if (!focus) return std::nullopt;
     inside.focus = *focus;
   }
   camera::Lens lens;
   if (!distances_.empty()) {
-    const auto focus = held(at.focus, distances_.front().count, distances_.back().count);
+    const auto focus = clamped(at.focus, distances_.front().count, distances_.back().count);
     if (!focus) return std::nullopt;
     const std::size_t i = interval_of(distances_, *focus, count_of);
     const FocusPoint &a = distances_[i], &b = distances_[i + 1];
@@ -375,7 +375,7 @@ std::optional<Position> Table::position_of(const camera::Lens& lens) const noexc
   if (!distances_.empty()) {
     const FocusPoint &first = distances_.front(), &last = distances_.back();
     const auto [near, far] = std::minmax({first.distance, last.distance});
-    const auto nearness = held(1 / (lens.focdist > 0 ? lens.focdist : far), 1 / far, 1 / near);
+    const auto nearness = clamped(1 / (lens.focdist > 0 ? lens.focdist : far), 1 / far, 1 / near);
     if (!nearness) return std::nullopt;
     const double sign = first.distance < last.distance ? -1 : 1;  // of nearness over counts
     const std::size_t i =
@@ -384,7 +384,7 @@ std::optional<Position> Table::position_of(const camera::Lens& lens) const noexc
     const double t = (*nearness - 1 / a.distance) / (1 / b.distance - 1 / a.distance);
     at.focus = a.count + t * (b.count - a.count);
     if (focuses_.size() > 1) {
-      const auto focus = held(at.focus, focuses_.front(), focuses_.back());
+      const auto focus = clamped(at.focus, focuses_.front(), focuses_.back());
       if (!focus) return std::nullopt;
       at.focus = *focus;
     }
@@ -395,7 +395,7 @@ std::optional<Position> Table::position_of(const camera::Lens& lens) const noexc
   const auto image_distance = [&](double zoom) { return values_at({zoom, at.focus})[0]; };
   double low = zooms_.front(), high = zooms_.back();
   const auto [least, most] = std::minmax({image_distance(low), image_distance(high)});
-  const auto wanted = held(lens.image_distance, least, most);
+  const auto wanted = clamped(lens.image_distance, least, most);
   if (!wanted) return std::nullopt;
   const bool rises = image_distance(high) > image_distance(low);
   if (*wanted == image_distance(high)) low = high;

@@ -1,4 +1,4 @@
-// Lens tables: what a lens does at the counts of its encoders (doc/free_d.md, "Lens tables").
+// Lens tables: the lens as a function of its encoder counts (doc/free_d.md, "Lens tables").
 #pragma once
 
 #include <memory>
@@ -13,14 +13,14 @@
 
 namespace trk_bridge::lens {
 
-/// Positions of the encoders, in their counts.
+/// Positions of the encoders, in counts.
 struct Position {
   double zoom = 0, focus = 0;
 };
 
-/// How a table fills what lies between its points over zoom. Over focus it is linear.
+/// Interpolation between points over zoom. Over focus it is linear.
 enum class Interpolation : std::uint8_t {
-  pchip,  ///< piecewise cubic, as smooth as points allow, never beyond them (Fritsch and Carlson)
+  pchip,  ///< piecewise cubic, without overshoot (Fritsch and Carlson)
   linear,
 };
 
@@ -36,29 +36,30 @@ struct FocusPoint {
   double distance = 0;  ///< m
 };
 
-/// What a table has, as it stands in its file.
+/// The content of a table file.
 struct Points {
   Interpolation interpolation = Interpolation::pchip;
   std::vector<Point> points;
-  std::vector<FocusPoint> focus;                   ///< may be empty: focus distances are not known
-  std::optional<wire::CameraConstants> constants;  ///< of the camera that the lens was measured on
+  std::vector<FocusPoint> focus;                   ///< may be empty: focus distances are unknown
+  std::optional<wire::CameraConstants> constants;  ///< of the camera with which the lens was measured
 };
 
-/// Immutable, so any thread. Its functions but for those that make one do not allocate.
+/// Immutable: may be used from any thread. Only the functions that create a table allocate.
 ///
-/// A position beyond the first or last point by at most a hundredth of the table's range is taken for that point, since
-/// encoders have some play at their stops. Farther out nothing is known: there is no extrapolation.
+/// A position outside of the table by at most 1 % of its range is treated as the nearest end, because encoders have
+/// some play at their stops. There is no extrapolation beyond that.
 class Table {
  public:
-  /// Reads a table. The error begins with `file_name` and the line (`lens.yaml:12: …`).
+  /// Parses a table. The error begins with `file_name` and the line (`lens.yaml:12: …`).
   static tl::expected<Table, std::string> from_yaml(const std::string& yaml, const std::string& file_name);
-  /// The same of a file. The error names the path.
+  /// The same from a file. The error names the path.
   static tl::expected<std::shared_ptr<const Table>, std::string> load(const std::string& path);
 
-  /// The lens at a position, aperture 0 and, where the table has no focus distances, focdist 0. None beyond the table.
+  /// The lens at a position; aperture is 0, and focdist is 0 if the table has no focus distances. None outside of the
+  /// table.
   [[nodiscard]] std::optional<camera::Lens> lens_at(const Position&) const noexcept;
-  /// The way back, of image distance and focdist, to a quarter of a count. A focdist of 0 ("not given" in trk) is taken
-  /// for the farthest. None beyond the table.
+  /// The inverse from image distance and focdist, to a quarter of a count. A focdist of 0 ("not given" in trk) is
+  /// treated as the largest distance. None outside of the table.
   [[nodiscard]] std::optional<Position> position_of(const camera::Lens&) const noexcept;
 
   /// The first and the last position.
@@ -70,7 +71,7 @@ class Table {
   const std::optional<wire::CameraConstants>& constants() const noexcept { return points_.constants; }
 
  private:
-  /// What is interpolated over zoom: image distance, centre shift x and y, k1, k2.
+  /// The values interpolated over zoom: image distance, centre shift x and y, k1, k2.
   using Values = Eigen::Array<double, 5, 1>;
   struct Knot {
     Values value, slope;  // slope: per count of zoom
@@ -83,7 +84,7 @@ class Table {
   Values values_at(const Position&) const noexcept;
 
   Points points_;
-  std::vector<double> zooms_, focuses_;  // ascending; one focus where it does not matter
+  std::vector<double> zooms_, focuses_;  // ascending; one focus if the table does not depend on focus
   std::vector<Knot> knots_;              // zooms_.size() for each of focuses_
   std::vector<FocusPoint> distances_;    // by count
 };

@@ -1,4 +1,4 @@
-// OpenTrackIO's packets to samples.
+// Decodes OpenTrackIO packets to samples.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace trk_bridge::opentrackio {
 
-/// Puts segments together, passes over packets that come twice, and makes records of samples: of the static part
-/// constants, of the rest parameters. A sample's fault that concerns a part of it comes behind its records.
+/// Assembles segments, skips duplicate packets, and converts samples to records: the static part to constants, the rest
+/// to parameters. A fault in a part of a sample is returned after its records.
 class PacketDecoder final : public transport::Decoder {
  public:
-  /// Of samples of several segments.
+  /// Senders whose samples have several segments.
   static constexpr std::size_t capacity = 64;
 
   PacketDecoder(bool takes_any, int tai_offset) : reader_(takes_any, tai_offset) {}
@@ -27,15 +27,15 @@ class PacketDecoder final : public transport::Decoder {
   Next next(transport::Sample& into, transport::Fault& fault) noexcept override;
 
  private:
-  /// A packet that was seen.
+  /// A received packet.
   struct Seen {
     std::size_t hash = 0;
     std::size_t size = 0;  ///< 0: none
     unsigned copies = 0;
   };
-  /// Packets that are remembered, of all senders together.
+  /// Number of stored packets, of all senders together.
   static constexpr std::size_t window = 256;
-  /// More copies are of a sender that sends the same again and again and does not count.
+  /// More copies come from a sender that repeats its packets and has no sequence numbers.
   static constexpr unsigned most_copies = 3;
 
   bool is_copy(std::string_view datagram) noexcept;
@@ -46,7 +46,7 @@ class PacketDecoder final : public transport::Decoder {
   std::array<Seen, window> seen_{};
   std::size_t next_seen_ = 0;
 
-  // Of the datagram, what next() has not given yet.
+  // The part of the datagram that next() has not returned yet.
   std::optional<transport::Fault> fault_;
   Encoding encoding_{};
   Sample sample_;

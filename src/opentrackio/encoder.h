@@ -1,4 +1,4 @@
-// Records to OpenTrackIO's packets.
+// Encodes records to OpenTrackIO packets.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace trk_bridge::opentrackio {
 
-/// One sample for each set of parameters, in as many packets as it needs. Constants are the static part of the sample
-/// after them. Allocates as the library does that writes JSON and CBOR.
+/// One sample for each set of parameters, in as many packets as necessary. Constants become the static part of the next
+/// sample. Allocates in the library that writes JSON and CBOR.
 class PacketEncoder final : public transport::Encoder {
  public:
   /// `source_id` is a urn:uuid.
@@ -38,13 +38,13 @@ class PacketEncoder final : public transport::Encoder {
   std::optional<base::CountedTimeCode> code_;
 
   std::string text_;       // of the sample
-  std::size_t given_ = 0;  // of it, by next()
+  std::size_t given_ = 0;  // bytes of it that next() has returned
   bool is_given_ = true;
   std::uint16_t sequence_ = 0;
   PacketBuffer buffer_{};
 };
 
-/// A urn:uuid of these bits, marked as one that was made by a rule of its own (RFC 9562, version 8).
+/// A urn:uuid of these bits, marked as custom (RFC 9562, version 8).
 std::string uuid(std::uint64_t high, std::uint64_t low);
 
 }  // namespace trk_bridge::opentrackio

@@ -1,4 +1,4 @@
-// What is wrong with a packet, a sample, or a record that is to become one.
+// Faults of packets, samples, and records to be sent.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,26 @@ enum class Reason : std::uint8_t {
   bad_magic,         ///< does not begin with OTrk
   bad_encoding,      ///< neither JSON nor CBOR
   wrong_length,      ///< not as long as its header says
-  wrong_checksum,    ///< the bytes are not those that were sent
-  lost_segment,      ///< a sample of several segments lacks one: it is discarded whole
+  wrong_checksum,    ///< the bytes were changed on the way
+  lost_segment,      ///< a segment is missing: the complete sample is discarded
   too_long,          ///< a sample of more than most_bytes
   not_json,          ///< the text is not what the header says
-  not_cbor,          ///< likewise
-  too_deep,          ///< nested deeper than samples are
+  not_cbor,          ///< the bytes are not what the header says
+  too_deep,          ///< nested deeper than most_depth
   wrong_type,        ///< of a member
   out_of_range,      ///< of a member
-  missing,           ///< a member, without which others mean nothing
-  source_number,     ///< 0, above 200 or not there
+  missing,           ///< a member without which others are meaningless
+  source_number,     ///< 0, above 200 or missing
   nothing_in_it,     ///< neither a transform nor a sensor
-  unknown_model,     ///< of distortion
-  sensor_needed,     ///< the distortion has to be fitted, and the sensor's size is not known
-  no_fit,            ///< no k1 and k2 come near the distortion
-  no_source_number,  ///< writing: the id is none, and no source=N is given
+  unknown_model,     ///< unknown distortion model
+  sensor_needed,     ///< the distortion must be fitted, and the size of the sensor is unknown
+  no_fit,            ///< the distortion cannot be approximated by k1 and k2
+  no_source_number,  ///< writing: the id is not a source number, and source=N is not given
 };
 
-/// `member` is of opentrackio::Id or a field; negative: none.
+/// `member` is an opentrackio::Id or a field; negative: none.
 transport::Fault fault_of(Reason, int member = -1) noexcept;
-/// Why a record is no camera.
+/// For a record that is not a valid camera.
 transport::Fault fault_of(camera::CameraReason) noexcept;
 
 }  // namespace trk_bridge::opentrackio

@@ -1,4 +1,4 @@
-// OpenTrackIO's packets: 16 bytes of header and a segment of a sample.
+// OpenTrackIO packets: a header of 16 bytes and a segment of a sample.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@
 namespace trk_bridge::opentrackio {
 
 inline constexpr std::size_t header_size = 16;
-/// With the headers of packet, UDP and IPv6 it is 1500 bytes, which no Ethernet fragments. (IPv4 has room for 1456.)
+/// With the headers of packet, UDP and IPv6: 1500 bytes, which Ethernet does not fragment. (With IPv4, 1456 would fit.)
 inline constexpr std::size_t most_payload = 1436;
-/// A sample, all segments together.
+/// The largest sample, all segments together.
 inline constexpr std::size_t most_bytes = 65536;
-/// Of objects and lists within each other.
+/// The deepest nesting of objects and lists.
 inline constexpr std::size_t most_depth = 32;
 
-/// A sound packet. `payload` are the datagram's own bytes.
+/// A valid packet. `payload` refers to the bytes of the datagram.
 struct Packet {
   Encoding encoding{};
   std::uint16_t sequence = 0;
@@ -32,27 +32,27 @@ struct Packet {
   std::string_view payload;
 };
 
-/// Whether a datagram begins as a packet, whatever follows.
+/// Whether a datagram begins like a packet.
 bool claims(std::string_view datagram) noexcept;
 [[nodiscard]] tl::expected<Packet, Reason> packet_of(std::string_view datagram) noexcept;
 
-/// Room for a packet that is written.
+/// A buffer for a packet to be written.
 using PacketBuffer = std::array<char, header_size + most_payload>;
-/// The whole datagram, in `into`. The payload has at most most_payload bytes.
+/// Writes the datagram into `into`. The payload has at most most_payload bytes.
 [[nodiscard]] std::string_view write(const Packet&, PacketBuffer& into) noexcept;
 
-/// Puts one sender's segments together, which have to come in their order.
+/// Assembles the segments of one sender, which must arrive in order.
 class Assembly {
  public:
-  /// The whole sample with its last segment, whose bytes stay until the next call. Nothing, and `lost` set, where a
-  /// sample lacks a segment; the packet may be the first of the next one. Allocates for samples of several segments,
-  /// until it has room for them.
+  /// With the last segment, returns the complete sample, whose bytes are valid until the next call. If a sample lacks a
+  /// segment, returns nothing and sets `lost`; the packet may be the first of the next sample. Allocates for samples of
+  /// several segments, until its buffer is large enough.
   [[nodiscard]] std::optional<std::string_view> add(const Packet&, std::optional<Reason>& lost);
 
  private:
   std::string bytes_;
-  bool is_open_ = false;      // segments came, the last one did not
-  bool is_skipping_ = false;  // until a first segment: the rest of a sample that lacks one
+  bool is_open_ = false;      // segments were received, but not the last one
+  bool is_skipping_ = false;  // skips the rest of a sample that lacks a segment
   std::uint16_t next_ = 0;
   Encoding encoding_{};
 };

@@ -22,7 +22,7 @@ auto& bounded(Map& all, std::uint32_t id) {
 }
 
 // y of the sensor points down, and what is +0 stays so.
-double turned(double value) noexcept { return 0.0 - value; }
+double negated(double value) noexcept { return 0.0 - value; }
 
 bool is_polynomial(const std::array<double, 6>& radial) noexcept {
   return radial[1] == 0 && radial[3] == 0 && radial[4] == 0 && radial[5] == 0;
@@ -35,7 +35,7 @@ camera::Lens lens_of(const Sample& sample) noexcept {
   const bool has_projection = sample.has_member(Id::projection_x) || sample.has_member(Id::projection_y);
   const Id x = has_projection ? Id::projection_x : Id::distortion_x;
   const Id y = has_projection ? Id::projection_y : Id::distortion_y;
-  lens.center_shift = {turned(sample.number(x)), sample.number(y)};
+  lens.center_shift = {negated(sample.number(x)), sample.number(y)};
   if (sample.model == Model::distorted_to_undistorted && is_polynomial(sample.radial)) {
     lens.k1 = sample.radial[0];
     lens.k2 = sample.radial[2];
@@ -323,7 +323,7 @@ tl::expected<Records, transport::Fault> RecordsReader::read(const Sample& sample
 }
 
 tl::expected<void, transport::Fault> RecordsWriter::use(const wire::CameraConstants& constants) noexcept {
-  if (const auto sound = camera::check(constants); !sound) return tl::unexpected(fault_of(sound.error()));
+  if (const auto checked = camera::check(constants); !checked) return tl::unexpected(fault_of(checked.error()));
   Camera& camera = bounded(cameras_, constants.id);
   (void)camera.converter.use(constants);
   camera.is_due = true;
@@ -384,7 +384,7 @@ tl::expected<Sample, transport::Fault> RecordsWriter::sample_of(
 
   if (converted.lens) {
     const camera::Lens& lens = *converted.lens;
-    const double x = turned(converted.params->center_x), y = converted.params->center_y;
+    const double x = negated(converted.params->center_x), y = converted.params->center_y;
     sample.set(Id::focal_length, converted.params->fov);
     sample.set(Id::projection_x, x);
     sample.set(Id::projection_y, y);

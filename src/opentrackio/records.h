@@ -1,4 +1,4 @@
-// Samples in trk's terms, and records as samples (doc/opentrackio.md).
+// Converts samples to records and back (doc/opentrackio.md).
 #pragma once
 
 #include <array>
@@ -19,16 +19,16 @@
 
 namespace trk_bridge::opentrackio {
 
-/// Sources have the numbers from 1 to this.
+/// Source numbers are 1 to this.
 inline constexpr std::uint32_t highest_source = 200;
 
-/// Of the last transform, without its scale.
+/// The pose of the last transform, without its scale.
 Eigen::Isometry3d pose_of(const Sample&) noexcept;
 
-/// What a sample has that trk cannot say, the first that applies.
+/// What is lost because trk cannot express it; the first that applies.
 enum class Lost : std::uint8_t { nothing, tangential, distortion_offset, scale, resolution };
 
-/// What a sample becomes.
+/// The records of a sample.
 struct Records {
   std::optional<wire::CameraConstants> constants;
   std::optional<wire::CameraParams> params;
@@ -36,15 +36,15 @@ struct Records {
   std::optional<std::int64_t> sample_time;  ///< ns since 1970 UTC
   std::optional<base::CountedTimeCode> time_code;
   Lost lost = Lost::nothing;
-  std::optional<transport::Fault> fault;  ///< of a part; the others stand
+  std::optional<transport::Fault> fault;  ///< of one part; the others are valid
 };
 
-/// Samples of one port to records. Remembers the sensor of each source number, and the last fit of its distortion.
-/// Allocates only for a source number that is new.
+/// Converts samples of one port to records. Stores the sensor of each source number, and the last fit of its
+/// distortion. Allocates only for new source numbers.
 class RecordsReader {
  public:
-  /// `takes_any`: source numbers that are no number of a source (0, above 200, none). `tai_offset` in s: how far the
-  /// senders' clocks are ahead of UTC.
+  /// `takes_any`: accepts invalid source numbers (0, above 200, none). `tai_offset`: how far the clocks of the senders
+  /// are ahead of UTC, s.
   RecordsReader(bool takes_any, int tai_offset) : takes_any_(takes_any), tai_offset_(tai_offset) {}
 
   [[nodiscard]] tl::expected<Records, transport::Fault> read(const Sample&) noexcept;
@@ -52,7 +52,7 @@ class RecordsReader {
  private:
   struct Source {
     std::optional<wire::CameraConstants> constants;
-    // What was fitted last, and what came of it; none: nothing was.
+    // Input and result of the last fit; none: no fit yet.
     std::array<double, 6> radial{};
     Model model{};
     Eigen::Vector2d center_shift = Eigen::Vector2d::Zero();
@@ -66,7 +66,7 @@ class RecordsReader {
   std::unordered_map<std::uint32_t, Source> sources_;
 };
 
-/// Receivers that read in ways of their own.
+/// Receivers with special requirements.
 enum class Profile : std::uint8_t { generic, unreal };
 
 struct WriterSettings {
@@ -77,13 +77,13 @@ struct WriterSettings {
   std::optional<double> rate;  ///< Hz, of samples
 };
 
-/// Records to samples. What they cannot say is in `custom`: every field whose value a reader of the rest would not come
-/// to. Remembers the constants of each id; allocates only for an id that is new.
+/// Converts records to samples. Fields whose value cannot be computed from the standard members are written to
+/// `custom`. Stores the constants must be sent of each id; allocates only for new ids.
 class RecordsWriter {
  public:
   explicit RecordsWriter(const WriterSettings& settings) : settings_(settings) {}
 
-  /// They go out with the next parameters of their id.
+  /// Constants are sent with the next parameters of their id.
   tl::expected<void, transport::Fault> use(const wire::CameraConstants&) noexcept;
   /// `nanoseconds` since 1970 UTC.
   tl::expected<Sample, transport::Fault> sample_of(const wire::CameraParams&, std::int64_t nanoseconds,

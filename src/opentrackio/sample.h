@@ -1,4 +1,4 @@
-// A sample of OpenTrackIO: the members that mean something in trk's terms, and its text in JSON and CBOR.
+// A sample of OpenTrackIO: the members that trk can express, and their encoding in JSON and CBOR.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@
 
 namespace trk_bridge::opentrackio {
 
-/// As in a packet's header.
+/// As in the header of a packet.
 enum class Encoding : std::uint8_t { json = 1, cbor = 2 };
 
-/// Members that are read or written; all others are passed over. `x`, `radial` and their like are children of the
-/// member before them that has children.
+/// Members that are read or written; all others are skipped. `x`, `radial` and similar names are children of the
+/// preceding member with children.
 enum class Id : std::uint8_t {
   root,
   source_number,
@@ -84,10 +84,11 @@ enum class Id : std::uint8_t {
   custom_params,
   custom_matrix,
   custom_constants,
-  fields,  ///< the first of the records' own, which stand behind all others
+  fields,  ///< the first field of the records, which follow all other members
 };
 
-/// `custom.trk.params` and `custom.trk.constants` have members of the fields' own names, in the order of wire/fields.h.
+/// `custom.trk.params` and `custom.trk.constants` have members with the names of the fields, in the order of
+/// wire/fields.h.
 template <typename Record>
 constexpr std::size_t first_field() noexcept {
   constexpr auto begin = static_cast<std::size_t>(Id::fields);
@@ -102,24 +103,24 @@ inline constexpr std::size_t member_count =
 /// "lens.distortion.radial".
 std::string path_of(std::size_t member);
 
-/// Of the first entry of `lens.distortion`, which is the one that counts.
+/// The model of the first entry of `lens.distortion`; other entries are ignored.
 enum class Model : std::uint8_t {
-  distorted_to_undistorted,  ///< "Brown-Conrady D-U", and without a name
+  distorted_to_undistorted,  ///< "Brown-Conrady D-U", or no name
   undistorted_to_distorted,  ///< "Brown-Conrady U-D"
   other,
 };
 
-/// Values of the members, in the units of OpenTrackIO: metres and degrees, the lens in mm with y down.
+/// Values of the members, in the units of OpenTrackIO: metres and degrees; the lens in mm, y down.
 struct Sample {
-  /// The product of all transforms but the last, without their scales.
+  /// The product of all transforms except the last, without their scales.
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
   std::size_t transforms = 0;
-  std::uint64_t counter = 0;  ///< custom.trk.params.counter, which a double cannot hold
+  std::uint64_t counter = 0;  ///< custom.trk.params.counter, which may not fit into a double
 
   std::bitset<member_count> has;
-  /// Of all members that are one number; of `transforms` those of the last. Flags are 0 and 1.
+  /// Values of all members that are one number; for `transforms`, those of the last. Flags are 0 or 1.
   std::array<double, member_count> numbers{};
-  std::array<double, 6> radial{};  ///< those that are missing are 0
+  std::array<double, 6> radial{};  ///< missing ones are 0
   std::array<double, 16> matrix{};
 
   Model model = Model::distorted_to_undistorted;
@@ -136,16 +137,16 @@ struct Sample {
   void set(Id id, double value) noexcept { set(static_cast<std::size_t>(id), value); }
 };
 
-/// Reads a whole sample. A member of the wrong type or out of its range, and text that is not of the encoding, are
-/// faults; then `into` is any sample. The library allocates for long names, nothing else does.
+/// Reads a complete sample. A member of the wrong type or out of range, and text that is not in the given encoding, are
+/// faults; then `into` is undefined. Only the library allocates, for long names.
 [[nodiscard]] std::optional<transport::Fault> read(std::string_view text, Encoding encoding, Sample& into) noexcept;
 
-/// What a written sample says besides the sample.
+/// Names that are written with a sample.
 struct Names {
   std::string source_id, sample_id;  ///< urn:uuid:…
-  std::string label;                 ///< of the camera, for people
+  std::string label;                 ///< of the camera, for users
 };
-/// Writes it in place of `into`. `base` is not written: the transforms are one. Allocates.
+/// Replaces `into` by the written sample. `base` is not written: there is only one transform. Allocates.
 void write(const Sample&, const Names&, Encoding encoding, std::string& into);
 
 }  // namespace trk_bridge::opentrackio

@@ -1,4 +1,4 @@
-// OpenTrackIO over UDP: the scheme opentrackio.
+// The scheme opentrackio: OpenTrackIO over UDP.
 #pragma once
 
 #include <optional>
@@ -18,13 +18,13 @@ inline constexpr std::uint16_t standard_port = 55555;
 
 /// `opentrackio://[host][:port]?source=…&tai_offset=…` and the options of every datagram source, to read from.
 struct SourceSettings : transport::ReceiveSettings {
-  /// Source number whose groups are joined, 1.0.1's (239.135.1.N) and 1.0.0's (235.135.1.N): with one of them as the
-  /// host, and without a host. 0: none.
+  /// Source number whose groups are joined: that of version 1.0.1 (239.135.1.N) and that of 1.0.0 (235.135.1.N). Used
+  /// if the host is one of them or is not given. 0: none.
   std::uint32_t source = 0;
-  bool takes_any = false;  ///< `source=any`: samples whose source number is none
+  bool takes_any = false;  ///< `source=any`: accepts samples with an invalid source number
   int tai_offset = 37;     ///< s
 
-  /// What is listened to, one or two places.
+  /// The one or two addresses to listen on.
   std::vector<transport::ReceiveSettings> places() const;
 };
 

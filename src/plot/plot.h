@@ -1,4 +1,4 @@
-// Curves over axes, as a drawing.
+// Draws curves with axes.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@ namespace trk_bridge::plot {
 
 struct Curve {
   std::vector<std::pair<double, double>> points;
-  std::string style;      ///< attributes of SVG
-  std::string name;       ///< of the legend; empty: it has none
-  bool has_dots = false;  ///< the points are drawn, and no line between them
+  std::string style;      ///< SVG attributes
+  std::string name;       ///< in the legend; empty: not in the legend
+  bool has_dots = false;  ///< draws the points, without a line between them
 };
 
 /// One pair of axes. Ranges must not be empty.
@@ -21,7 +21,7 @@ struct Panel {
   std::vector<Curve> curves;
 };
 
-/// An SVG: the panels below each other, `title` above them.
+/// Returns an SVG: the panels one below the other, with `title` above.
 std::string to_svg(const std::string& title, const std::vector<Panel>& panels);
 
 }  // namespace trk_bridge::plot

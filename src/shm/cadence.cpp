@@ -23,7 +23,7 @@ constexpr double longest_lateness = 400'000;
 /// Expected moments without a set, after which the rhythm is over.
 constexpr int most_missed = 8;
 /// Sets in a row at another time than expected, which are another rhythm.
-constexpr int most_strays = 2;
+constexpr int most_outliers = 2;
 /// Sets before any can be at another time than expected.
 constexpr unsigned first_sets = 4;
 /// A set is looked for so many mean deviations around its moment.
@@ -90,20 +90,20 @@ void Cadence::found(std::int64_t now, unsigned sets) noexcept {
   error -= period_ * std::round(error / period_);
   // Found after a sleep that went past the moment: it may have been there for long.
   if (error == 0 && before_ == Before::sleep) error = -deviation_ / 4;
-  const bool is_stray = std::abs(error) > 4 * deviation_ && tracked_ >= first_sets;
-  strays_ = is_stray ? strays_ + 1 : 0;
-  if (strays_ == most_strays && std::abs(error) > period_ / 4) return forget();
+  const bool is_outlier = std::abs(error) > 4 * deviation_ && tracked_ >= first_sets;
+  outliers_ = is_outlier ? outliers_ + 1 : 0;
+  if (outliers_ == most_outliers && std::abs(error) > period_ / 4) return forget();
   tracked_ = std::min(tracked_ + 1, 32U);
-  const double counted = is_stray ? 4 * deviation_ : std::abs(error);
+  const double counted = is_outlier ? 4 * deviation_ : std::abs(error);
   deviation_ += (counted - deviation_) / std::min(tracked_ + 1, 16U);
   deviation_ = std::clamp(deviation_, least_deviation, period_ / 4);
   // A set that strays alone was held up; the next ones come as ever. With the second the writer has moved. Otherwise
   // half way: clocks of writers are steady, but those that sleep from set to set are not.
-  const double moved = !is_stray ? written - error / 2 : strays_ < most_strays ? written - error : written;
-  if (!is_stray) period_ += (interval / periods - period_) / (tracked_ + 1);
+  const double moved = !is_outlier ? written - error / 2 : outliers_ < most_outliers ? written - error : written;
+  if (!is_outlier) period_ += (interval / periods - period_) / (tracked_ + 1);
   if (period_ < shortest_sleep) return forget();
-  if (strays_ == most_strays) strays_ = 0;
-  last_found_ = now + static_cast<std::int64_t>(is_stray ? moved : written);
+  if (outliers_ == most_outliers) outliers_ = 0;
+  last_found_ = now + static_cast<std::int64_t>(is_outlier ? moved : written);
   expected_ = moved + period_;
 }
 
@@ -119,7 +119,7 @@ void Cadence::learn(std::int64_t now, unsigned sets) noexcept {
     deviation_ = std::min(std::abs(interval - interval_) / 2 + uncertainty, period_ / 4);
     expected_ = period_ - half;
     tracked_ = 0;
-    strays_ = missed_ = 0;
+    outliers_ = missed_ = 0;
   }
   interval_ = is_exact ? interval : 0;
   is_fast_ = interval < 2 * affordable_sleep();
@@ -132,7 +132,7 @@ void Cadence::forget() noexcept {
   period_ = 0;
   has_found_ = false;
   interval_ = 0;
-  strays_ = missed_ = 0;
+  outliers_ = missed_ = 0;
 }
 
 double Cadence::sleep_while_unknown(std::int64_t now) noexcept {

@@ -77,7 +77,7 @@ tl::expected<void, SlotFault> Link::keep_now(Clock::time_point now) noexcept {
   looked_ = now;
   if (const auto checked = check(true, nullptr, now); !checked) return checked;
   if (has_written_ || !is_alone_too_long(now)) return {};
-  absent_ = let_go();
+  absent_ = release();
   return tl::unexpected(*absent_);
 }
 
@@ -100,15 +100,15 @@ tl::expected<void, SlotFault> Link::open_for_writing() noexcept {
 }
 
 tl::expected<void, SlotFault> Link::check(bool look_up, const SegmentLayout* create, Clock::time_point now) noexcept {
-  if (segment_->fate(look_up) != SegmentFate::current) {
+  if (segment_->status(look_up) != SegmentStatus::current) {
     segment_.reset();
     return attach(create, now);
   }
   if (!options_.recreate || !segment_->writable()) return {};
   const std::size_t attachments = segment_->attachments();
-  if (attachments > 1) had_company_ = true;
-  if (attachments != 1 || !had_company_) return {};
-  had_company_ = false;
+  if (attachments > 1) had_others_ = true;
+  if (attachments != 1 || !had_others_) return {};
+  had_others_ = false;
   const std::uint16_t unread = static_cast<std::uint16_t>(segment_->params_counter() - params_read_);
   const bool constants_unread = constants_unread_ || segment_->constants_counter() != constants_read_;
   if (const auto fresh = segment_->recreate(options_.mode); !fresh) {
@@ -125,16 +125,16 @@ tl::expected<void, SlotFault> Link::check(bool look_up, const SegmentLayout* cre
 }
 
 Link::Look Link::look() const noexcept {
-  return {segment_->attendance(), segment_->params_counter(), segment_->constants_counter()};
+  return {segment_->attach_info(), segment_->params_counter(), segment_->constants_counter()};
 }
 
 // A program may attach, write and leave between two looks: it shows in the kernel's times or in the counters.
 bool Link::is_alone_too_long(Clock::time_point now) noexcept {
   const Look seen = look();
-  const bool is_quiet = seen.attendance == last_look_.attendance && seen.params == last_look_.params &&
+  const bool is_quiet = seen.attach_info == last_look_.attach_info && seen.params == last_look_.params &&
                         seen.constants == last_look_.constants;
   last_look_ = seen;
-  if (seen.attendance.attachments != 1) {
+  if (seen.attach_info.attachments != 1) {
     alone_since_.reset();
   } else if (!is_quiet || !alone_since_) {
     alone_since_ = now;
@@ -142,24 +142,24 @@ bool Link::is_alone_too_long(Clock::time_point now) noexcept {
   return alone_since_ && now - *alone_since_ >= alone_limit;
 }
 
-SlotFault Link::let_go() noexcept {
+SlotFault Link::release() noexcept {
   const int id = segment_->id();
   segment_.reset();
   const auto found = find_segment(options_.slot);
   if (!found) return found.error();
-  if (found->id == id) left_ = Left{id, attendance_of(found->state)};
-  return slot_fault(SlotProblem::deserted, options_.slot);
+  if (found->id == id) abandoned_ = Abandoned{id, attach_info_of(found->state)};
+  return slot_fault(SlotProblem::abandoned, options_.slot);
 }
 
-bool Link::is_still_deserted() const noexcept {
-  if (!left_) return false;
+bool Link::is_still_abandoned() const noexcept {
+  if (!abandoned_) return false;
   const auto found = find_segment(options_.slot);
-  return found && found->id == left_->id && attendance_of(found->state) == left_->attendance;
+  return found && found->id == abandoned_->id && attach_info_of(found->state) == abandoned_->attach_info;
 }
 
 tl::expected<void, SlotFault> Link::attach(const SegmentLayout* create, Clock::time_point now) noexcept {
   looked_ = now;
-  if (create == nullptr && is_still_deserted()) return tl::unexpected(*absent_);
+  if (create == nullptr && is_still_abandoned()) return tl::unexpected(*absent_);
   auto segment = create != nullptr ? Segment::attach_or_create(options_.slot, *create, options_.mode)
                                    : Segment::attach(options_.slot);
   if (!segment) {
@@ -169,7 +169,7 @@ tl::expected<void, SlotFault> Link::attach(const SegmentLayout* create, Clock::t
   absent_.reset();
   segment_.emplace(std::move(*segment));
   ++attached_;
-  had_company_ = segment_->attachments() > 1;
+  had_others_ = segment_->attachments() > 1;
   begin_reading(now);
   return {};
 }
@@ -177,9 +177,9 @@ tl::expected<void, SlotFault> Link::attach(const SegmentLayout* create, Clock::t
 void Link::begin_reading(Clock::time_point now) noexcept {
   last_look_ = look();
   alone_since_.reset();
-  if (last_look_.attendance.attachments == 1) alone_since_ = now;
-  const bool is_known = left_ && left_->id == segment_->id();
-  left_.reset();
+  if (last_look_.attach_info.attachments == 1) alone_since_ = now;
+  const bool is_known = abandoned_ && abandoned_->id == segment_->id();
+  abandoned_.reset();
   if (is_known) return;
   writer_layout_ = nullptr;
   known_head_.reset();

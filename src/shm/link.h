@@ -1,4 +1,4 @@
-// A slot that is kept attached: what was removed, replaced or not yet there is found again.
+// Stays attached to a slot: reattaches when the segment was removed, replaced or did not exist yet.
 #pragma once
 
 #include <array>
@@ -15,142 +15,141 @@
 
 namespace trk_bridge::shm {
 
-/// What one look for a new record met.
+/// The result of looking for a new record.
 enum class ReadResult : std::uint8_t {
   fresh,      ///< a new record
   nothing,    ///< none since the last one
-  malformed,  ///< a new one that is not sound
+  malformed,  ///< a new record that is malformed
 };
 
-/// Reads and writes one slot over all the segments it has in the course of time. Of a segment it attaches to, it reads
-/// parameters written from then on, and constants written before as well. One thread at a time; allocates nothing and,
-/// but for open_for_writing(), never waits.
+/// Reads and writes one slot, which may have several segments in the course of time. It reads the parameters written
+/// after it attached, and also constants written before. One thread at a time; allocates nothing and never waits,
+/// except in open_for_writing().
 ///
-/// Programs of the smaller generation (smaller_generation()) can attach to a segment and write records of their own
-/// into it. So a record is read in both layouts: it counts in the one in which it is plausible, and where it is in
-/// both, in the one that the constants in the segment, or the records before, speak for. Otherwise it is malformed.
+/// Programs of the smaller generation (smaller_generation()) can attach to a segment and write records in their own
+/// layout. So each record is tried in both layouts and read in the one in which it is plausible. If it is plausible in
+/// both, the constants in the segment or the previous records decide. Otherwise it is malformed.
 class Link {
  public:
-  /// Which slot, and what to make where there is nothing.
+  /// The slot, and what to create if it has no segment.
   struct Options {
     int slot = 0;
-    /// Writing makes a segment of this layout where there is none; null: it waits for somebody else's.
+    /// Writing creates a segment of this layout if there is none; null: it waits for one of another program.
     const SegmentLayout* create = nullptr;
-    int mode = 0666;        ///< of segments it makes
-    bool recreate = false;  ///< trkMemRecreate: a fresh segment whenever all others have left
-    /// False: keep_for_writing() relies on the look before it for `check_period`, as keep() does, and what is written
-    /// meanwhile to a segment that was removed is lost. Does not count with `recreate`.
-    bool looks_at_every_write = true;
+    int mode = 0666;        ///< of segments that it creates
+    bool recreate = false;  ///< trkMemRecreate: recreates the segment when all others have detached
+    /// False: keep_for_writing() checks the segment only every `check_period`, as keep() does; what is written to a
+    /// removed segment in between is lost. No effect with `recreate`.
+    bool checks_every_write = true;
   };
 
-  /// What `now` is measured with.
+  /// The clock of `now`.
   using Clock = std::chrono::steady_clock;
-  /// How often it asks whether the slot still means this segment, and looks for one that is not there.
+  /// How often it checks whether the slot still has this segment, and looks for a missing one.
   static constexpr std::chrono::milliseconds check_period{200};
   static constexpr std::chrono::milliseconds attach_period{50};
-  /// How long a reader stays alone with a segment: a writer whose segments are larger could not open the slot
-  /// meanwhile.
+  /// How long a reader stays attached without others: meanwhile, a writer with larger segments could not open the slot.
   static constexpr std::chrono::seconds alone_limit{1};
 
   explicit Link(const Options& options) noexcept : options_(options) {}
 
-  /// For reading: attaches, or reattaches, when it is time to look; creates nothing. Lets go of a segment that nobody
-  /// else has attached to for `alone_limit`, unless it wrote; that removes it where the system permits, and where not,
-  /// it is attached to again when somebody else has. A fault says why there is no segment.
+  /// For reading: attaches or reattaches when a check is due; creates nothing. Detaches from a segment to which nobody
+  /// else was attached for `alone_limit`, unless it has written. This removes the segment if the system permits it; if
+  /// not, it reattaches when somebody else has. A fault says why there is no segment.
   [[nodiscard]] tl::expected<void, SlotFault> keep(Clock::time_point now) noexcept {
     if (is_kept(now)) return {};
     return keep_now(now);
   }
-  /// For writing: as a rule looks at every call, for a write into a removed segment would be lost, and makes one where
-  /// there is none.
+  /// For writing: by default, checks at every call, because a write to a removed segment would be lost; creates a
+  /// segment if there is none.
   [[nodiscard]] tl::expected<void, SlotFault> keep_for_writing(Clock::time_point now) noexcept {
-    if (is_kept(now) && !options_.looks_at_every_write && !options_.recreate) return {};
+    if (is_kept(now) && !options_.checks_every_write && !options_.recreate) return {};
     return keep_for_writing_now(now);
   }
 
-  /// The same, before the first write: the one function that waits, up to 0.2 s for others that make or remove the
-  /// segment.
+  /// The same before the first write. Waits up to 0.2 s for others that create or remove the segment; no other function
+  /// waits.
   [[nodiscard]] tl::expected<void, SlotFault> open_for_writing() noexcept;
 
   /// Null without a segment.
   const Segment* segment() const noexcept { return segment_ ? &*segment_ : nullptr; }
-  /// Segments attached to so far.
+  /// Number of segments attached so far.
   std::uint64_t attached() const noexcept { return attached_; }
-  /// Whether reading parameters (constants) would not give `nothing`.
+  /// Whether there are new parameters (constants) to read.
   bool has_new_params() const noexcept { return segment_ && segment_->params_counter() != params_read_; }
   bool has_new_constants() const noexcept {
     return segment_ && (constants_unread_ || segment_->constants_counter() != constants_read_);
   }
-  /// Parameters written and replaced by newer ones before they were read.
+  /// Parameters that were replaced by newer ones before they were read.
   std::uint64_t overwritten() const noexcept { return overwritten_; }
 
-  /// The newest parameters (constants) not read yet; `fault` is set with malformed.
+  /// The newest parameters (constants) that were not read yet; `fault` is set with malformed.
   [[nodiscard]] ReadResult read(wire::CameraParams& into, transport::Fault& fault) noexcept;
   [[nodiscard]] ReadResult read(wire::CameraConstants& into, transport::Fault& fault) noexcept;
-  /// As read() of parameters, but their bytes, in the layout read_in().
+  /// As read() of parameters, but returns their bytes, in the layout read_in().
   [[nodiscard]] ReadResult read_params(RecordImage& image, std::string_view& bytes, transport::Fault& fault) noexcept;
-  /// The layout of the last record read; before one, the segment's.
+  /// The layout of the last record read; before the first, that of the segment.
   wire::Layout read_in() const noexcept { return read_in_; }
 
-  /// There must be a segment() that is writable(). A segment made later begins with the constants written last.
+  /// Requires a segment() that is writable(). A segment created later starts with the last constants written.
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraParams&) noexcept;
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraConstants&) noexcept;
-  /// Parameters in the segment's layout.
+  /// Writes parameters that are in the layout of the segment.
   void write_params(std::string_view image) noexcept {
     has_written_ = true;
     segment_->write_params(image);
   }
 
-  /// Lets go; keep() attaches again.
+  /// Detaches; keep() reattaches.
   void close() noexcept { segment_.reset(); }
 
  private:
-  /// What a look at who is attached saw.
+  /// Attached programs and write counters at one moment.
   struct Look {
-    Attendance attendance;
+    AttachInfo attach_info;
     std::uint16_t params = 0, constants = 0;  ///< write counters
   };
-  /// A segment that was let go of and could not be removed.
-  struct Left {
+  /// A segment that was detached and could not be removed.
+  struct Abandoned {
     int id = -1;
-    Attendance attendance;
+    AttachInfo attach_info;
   };
 
   tl::expected<void, SlotFault> attach(const SegmentLayout* create, Clock::time_point now) noexcept;
   tl::expected<void, SlotFault> check(bool look_up, const SegmentLayout* create, Clock::time_point now) noexcept;
   void begin_reading(Clock::time_point now) noexcept;
-  /// Whether the last look at the segment is recent enough.
+  /// Whether the last check of the segment is recent enough.
   bool is_kept(Clock::time_point now) const noexcept { return segment_ && looked_ && now - *looked_ < check_period; }
   tl::expected<void, SlotFault> keep_now(Clock::time_point now) noexcept;
   tl::expected<void, SlotFault> keep_for_writing_now(Clock::time_point now) noexcept;
   bool look_due(Clock::time_point now, std::chrono::milliseconds period) noexcept;
   Look look() const noexcept;
   bool is_alone_too_long(Clock::time_point now) noexcept;
-  SlotFault let_go() noexcept;
-  bool is_still_deserted() const noexcept;
-  /// The layout that the record in the image is written in; a fault when it reads in none, or in both alike.
+  SlotFault release() noexcept;
+  bool is_still_abandoned() const noexcept;
+  /// The layout of the record in the image; a fault if it is plausible in none, or equally in both.
   tl::expected<const SegmentLayout*, transport::Fault> layout_of_params(const RecordImage& image) noexcept;
   tl::expected<const SegmentLayout*, transport::Fault> layout_of_constants(const RecordImage& image) noexcept;
-  /// As layout_of_params(), without judging what is known.
+  /// As layout_of_params(), but skips the check for records of a known writer.
   tl::expected<const SegmentLayout*, transport::Fault> known_layout_of_params(const RecordImage& image) noexcept;
 
   Options options_;
   std::optional<Segment> segment_;
-  std::optional<SlotFault> absent_;  // why there is no segment, as of the last look
+  std::optional<SlotFault> absent_;  // why there was no segment at the last check
   std::optional<Clock::time_point> looked_;
   std::uint16_t params_read_ = 0;
   std::uint16_t constants_read_ = 0;
   bool constants_unread_ = false;
-  const SegmentLayout* writer_layout_ = nullptr;  // of the records, as far as they have shown it
-  // Id and format of the last parameters that were read in the segment's own layout: the same words again are of the
-  // same writer, whose records need not be judged again.
+  const SegmentLayout* writer_layout_ = nullptr;  // of the records; null: not known yet
+  // Id and format of the last parameters that were read in the own layout of the segment: equal words belong to the
+  // same writer, whose records need not be checked again.
   std::optional<std::array<char, 8>> known_head_;
   wire::Layout read_in_{};
-  bool had_company_ = false;
+  bool had_others_ = false;
   bool has_written_ = false;
   Look last_look_;
   std::optional<Clock::time_point> alone_since_;
-  std::optional<Left> left_;
+  std::optional<Abandoned> abandoned_;
   std::optional<wire::CameraConstants> written_constants_;
   std::uint64_t attached_ = 0;
   std::uint64_t overwritten_ = 0;

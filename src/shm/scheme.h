@@ -1,4 +1,4 @@
-// trk in shared memory: the scheme shm.
+// The scheme shm: trk in shared memory.
 #pragma once
 
 #include <memory>
@@ -14,16 +14,16 @@ namespace trk_bridge::shm {
 /// `shm:SLOT?layout=…&mode=…&recreate=1`, slots 0 to 61. The options are for writing.
 struct Settings {
   int slot = 0;
-  wire::LayoutChoice layout;  ///< of a segment that is created; what is not given is default_layout's
-  int mode = 0666;            ///< permissions of a segment that is created, to 0777
-  bool recreate = false;      ///< the document's trkMemRecreate
+  wire::LayoutChoice layout;  ///< of a segment that is created; default_layout for what is not given
+  int mode = 0666;            ///< permissions of a segment that is created, up to 0777
+  bool recreate = false;      ///< trkMemRecreate of the document
 };
 
 /// Errors name the part of the URL, its value and what is allowed.
 tl::expected<Settings, std::string> source_settings(const transport::Url&);
 tl::expected<Settings, std::string> sink_settings(const transport::Url&);
 
-/// Throw TransportError. A slot without a segment is no error for reading.
+/// Throw TransportError. A slot without a segment is not an error for reading.
 std::unique_ptr<transport::Source> open_source(const Settings&);
 std::unique_ptr<transport::Sink> open_sink(const Settings&);
 

@@ -88,7 +88,7 @@ bool means(int slot, int id) noexcept {
   return found && found->id == id;
 }
 
-bool is_deserted(int id) noexcept {
+bool has_no_attachments(int id) noexcept {
   shmid_ds state{};
   return ::shmctl(id, IPC_STAT, &state) == 0 && state.shm_nattch == 0 && may_remove(state);
 }
@@ -97,7 +97,7 @@ bool is_deserted(int id) noexcept {
 // segment before is seen by a second look. What is left is one that attaches between that look and the removal. A file
 // that may not be moved stays with its segment: programs of the field cannot open a slot that has a file alone.
 void remove_if_last(int slot, int id) noexcept {
-  if (!is_deserted(id)) return;
+  if (!has_no_attachments(id)) return;
   const auto found = find_segment(slot);
   if (!found || found->id != id) {
     ::shmctl(id, IPC_RMID, nullptr);
@@ -106,12 +106,12 @@ void remove_if_last(int slot, int id) noexcept {
   const auto spare = SpareFile::make(slot);
   if (!spare) return;
   if (!spare->take_slot_file()) {
-    if (errno == ENOENT && is_deserted(id)) ::shmctl(id, IPC_RMID, nullptr);
+    if (errno == ENOENT && has_no_attachments(id)) ::shmctl(id, IPC_RMID, nullptr);
     return;
   }
   // Somebody else may have done the same, and a third one have made the slot again.
   const bool is_its_file = ::ftok(spare->c_str(), 0) == found->key;
-  const bool removes = is_deserted(id);
+  const bool removes = has_no_attachments(id);
   if (removes) ::shmctl(id, IPC_RMID, nullptr);
   if (!removes || !is_its_file) static_cast<void>(spare->become_slot_file());
 }
@@ -189,15 +189,15 @@ tl::expected<Segment, SlotFault> Segment::attach(int slot) noexcept {
   if (const auto unshared = check_unshared(slot, found->key); !unshared) return tl::unexpected(unshared.error());
   const auto mapping = map(slot, found->id);
   if (!mapping) return tl::unexpected(mapping.error());
-  if (const auto sound = check_magic(slot, mapping->base, *layout); !sound) {
+  if (const auto checked = check_magic(slot, mapping->base, *layout); !checked) {
     ::shmdt(mapping->base);
-    return tl::unexpected(sound.error());
+    return tl::unexpected(checked.error());
   }
   Segment segment(slot, found->id, mapping->base, *layout, mapping->writable);
   segment.count_in();
   segment.correct_count();
   // The last one to use it may have removed it between the look and the attachment.
-  if (segment.fate(true) != SegmentFate::current) return tl::unexpected(slot_fault(SlotProblem::no_segment, slot));
+  if (segment.status(true) != SegmentStatus::current) return tl::unexpected(slot_fault(SlotProblem::no_segment, slot));
   return segment;
 }
 
@@ -237,7 +237,7 @@ tl::expected<Segment, SlotFault> Segment::adopt(int slot) noexcept {
   Segment segment(slot, found->id, mapping->base, *layout, mapping->writable);
   const bool is_unfinished = magic_in(segment.base_, *layout) == 0 && is_unwritten(segment.base_, *layout);
   if (!mapping->writable || !is_unfinished || segment.attachments() != 1) {
-    ::shmdt(segment.let_go());
+    ::shmdt(segment.release());
     return tl::unexpected(unfinished);
   }
   segment.finish();
@@ -288,7 +288,7 @@ void Segment::finish() noexcept {
   correct_count();
 }
 
-char* Segment::let_go() noexcept {
+char* Segment::release() noexcept {
   counted_ = false;
   return std::exchange(base_, nullptr);
 }
@@ -299,7 +299,7 @@ void Segment::close() noexcept {
     __atomic_sub_fetch(at<std::int32_t>(base_, layout_->connected), 1, __ATOMIC_ACQ_REL);
   }
   // Detached before the count is looked at: of two that leave at once, one then sees that it was the last.
-  ::shmdt(let_go());
+  ::shmdt(release());
   remove_if_last(slot_, id_);
 }
 
@@ -307,23 +307,23 @@ std::int32_t Segment::connected() const noexcept {
   return __atomic_load_n(at<std::int32_t>(base_, layout_->connected), __ATOMIC_ACQUIRE);
 }
 
-Attendance Segment::attendance() const noexcept {
+AttachInfo Segment::attach_info() const noexcept {
   shmid_ds state{};
-  return ::shmctl(id_, IPC_STAT, &state) == 0 ? attendance_of(state) : Attendance{};
+  return ::shmctl(id_, IPC_STAT, &state) == 0 ? attach_info_of(state) : AttachInfo{};
 }
 
 bool Segment::has_32_bit_program() const noexcept { return magic_in(base_, *layout_) != segment_magic; }
 
-SegmentFate Segment::fate(bool look_up) const noexcept {
+SegmentStatus Segment::status(bool look_up) const noexcept {
   shmid_ds state{};
   if (::shmctl(id_, IPC_STAT, &state) != 0) {
-    if (errno == EINVAL || errno == EIDRM) return SegmentFate::removed;
+    if (errno == EINVAL || errno == EIDRM) return SegmentStatus::removed;
   } else if ((state.shm_perm.mode & SHM_DEST) != 0) {
-    return SegmentFate::removed;
+    return SegmentStatus::removed;
   }
-  if (!look_up) return SegmentFate::current;
+  if (!look_up) return SegmentStatus::current;
   const auto found = find_segment(slot_);
-  return found && found->id != id_ ? SegmentFate::replaced : SegmentFate::current;
+  return found && found->id != id_ ? SegmentStatus::replaced : SegmentStatus::current;
 }
 
 bool Segment::copy(std::size_t counter_at, std::array<std::size_t, 2> SegmentLayout::*elements,

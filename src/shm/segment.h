@@ -1,5 +1,5 @@
-// One shared memory segment of a slot (doc/wire_formats.md, "Shared memory"): finding, making, reading, writing and
-// removing it.
+// One shared memory segment of a slot (doc/wire_formats.md, "Shared memory"): finds, creates, reads, writes and removes
+// it.
 #pragma once
 
 #include <array>
@@ -20,23 +20,23 @@ namespace trk_bridge::shm {
 
 /// Slots are 0 to `slot_count` - 1.
 inline constexpr int slot_count = 62;
-/// The slot's file, "/tmp/dmc_tracking_buffer.7". The slot must be valid.
+/// The file of the slot, "/tmp/dmc_tracking_buffer.7". The slot must be valid.
 std::string slot_path(int slot);
 
 /// What is wrong with a slot.
 enum class SlotProblem : std::uint8_t {
   bad_slot,    ///< not 0..61
-  no_file,     ///< nobody has opened the slot
-  no_segment,  ///< the file is there, the segment is not
+  no_file,     ///< no program has opened the slot
+  no_segment,  ///< the file exists, the segment does not
   unfinished,  ///< a segment without magic and records: being created, or its creator died
-  deserted,    ///< a reader let go of the segment, and nobody has attached since
-  foreign,     ///< a segment under the slot's key that is not trk: `size`, and `magic` where the size was right
-  not_a_file,  ///< something else has the slot file's name
-  key_zero,    ///< ftok gives 0, which the kernel takes for "private"
+  abandoned,   ///< a reader detached from the segment, and nobody has attached since
+  foreign,     ///< a segment with the key of the slot that is not trk: `size`, and `magic` if the size was right
+  not_a_file,  ///< the name of the slot file belongs to something else
+  key_zero,    ///< ftok returns 0, which means "private" to the kernel
   key_shared,  ///< `other_slot` has the same key
   no_key,      ///< every new file has the key of another segment
-  exists,      ///< somebody else made the segment at the same moment
-  system,      ///< the kernel refused: `error_number`
+  exists,      ///< another program created the segment at the same moment
+  system,      ///< a system call failed: `error_number`
 };
 
 /// Why a segment cannot be used. Cheap to copy, never allocates.
@@ -55,63 +55,63 @@ inline bool operator==(const SlotFault& a, const SlotFault& b) noexcept {
 /// "slot 7: segment of 300 bytes is no trk layout".
 std::string describe(const SlotFault&);
 
-/// Whether the fault is that there is nothing yet, so that waiting makes sense.
+/// Whether there is no segment yet, so that waiting makes sense.
 constexpr bool is_absence(SlotProblem p) noexcept {
   return p == SlotProblem::no_file || p == SlotProblem::no_segment || p == SlotProblem::unfinished ||
-         p == SlotProblem::deserted;
+         p == SlotProblem::abandoned;
 }
-/// Whether the next look may well find, or make, a segment without anybody having mended anything.
+/// Whether the next attempt may succeed without a repair by the user.
 constexpr bool is_transient(SlotProblem p) noexcept { return is_absence(p) || p == SlotProblem::exists; }
 
-/// A record as it lies in a segment, and the write counter it was current at; with it the bytes around it that the
-/// current record of smaller_generation() has.
+/// A copy of the current record in a segment and its write counter, including the bytes of the current record of
+/// smaller_generation().
 struct RecordImage {
-  std::array<char, record_room> bytes;  ///< as far as they were copied
-  std::size_t begin = 0;                ///< where `bytes` begin in the segment
+  std::array<char, record_room> bytes;  ///< the copied bytes
+  std::size_t begin = 0;                ///< offset of `bytes` in the segment
   std::size_t at = 0, size = 0;
   std::uint16_t counter = 0;
 
-  /// The record in the segment's own layout.
+  /// The record in the own layout of the segment.
   std::string_view view() const noexcept { return part(at, size); }
-  /// What lies from `from` on in the segment, which must be within the bytes copied.
+  /// `length` bytes from offset `from` in the segment, which must have been copied.
   std::string_view part(std::size_t from, std::size_t length) const noexcept {
     return {bytes.data() + (from - begin), length};
   }
 };
 
-/// Who is attached to a segment, as the kernel has it. Equal ones: nobody came or went, but for a process that came
-/// twice within a second.
-struct Attendance {
-  std::size_t attachments = 0;  ///< 0 also when the kernel cannot say
-  pid_t last = 0;               ///< process that attached or detached last
+/// Attached processes by the kernel. If two are equal, nobody attached or detached in between, except a process that
+/// attached twice within a second.
+struct AttachInfo {
+  std::size_t attachments = 0;  ///< 0 also if the kernel does not report it
+  pid_t last = 0;               ///< the process that attached or detached last
   std::time_t attached = 0, detached = 0;
 };
-inline bool operator==(const Attendance& a, const Attendance& b) noexcept {
+inline bool operator==(const AttachInfo& a, const AttachInfo& b) noexcept {
   return a.attachments == b.attachments && a.last == b.last && a.attached == b.attached && a.detached == b.detached;
 }
 
-/// What has become of an attached segment.
-enum class SegmentFate : std::uint8_t {
-  current,   ///< the slot still means it, or means nothing
-  removed,   ///< marked destroyed: nobody new will come to it
-  replaced,  ///< the slot means another segment now
+/// Status of an attached segment.
+enum class SegmentStatus : std::uint8_t {
+  current,   ///< the slot still has it, or has no segment
+  removed,   ///< marked as destroyed: no other process can attach
+  replaced,  ///< the slot has another segment now
 };
 
-/// One attachment. `connected` in the segment goes up with it and down when it ends; the last attachment of any process
-/// removes segment and file. Who is last is the kernel's attach count, not `connected`, which dead processes leave too
-/// high: attaching sets it to the kernel's count where the two differ. A segment without write permission is attached
-/// for reading alone and its `connected` left as it is. In a child after fork() the copy only lets go of the memory.
+/// One attachment. `connected` in the segment counts attachments; the last one of any process removes segment and file.
+/// The attach count of the kernel determines which one is last, not `connected`, which dead processes leave too high:
+/// attaching corrects it to the count of the kernel. Without write permission, a segment is attached read-only and its
+/// `connected` is not changed. In a child process after fork(), the copy only detaches the memory.
 ///
-/// Functions may be called from any thread that has the object to itself; any number of processes read one segment
-/// while one writes. Nothing allocates but describe(). Nothing waits or sleeps: attaching looks once, making tries
-/// once, copying gives up after 64 copies that a writer disturbed, all together well under a millisecond of system
-/// calls.
+/// One thread at a time per object; any number of processes may read a segment while one writes. Only describe()
+/// allocates. Nothing waits or sleeps: attaching and creating try once, and copying gives up after 64 copies that a
+/// writer disturbed. Together, the system calls take well under a millisecond.
 class Segment {
  public:
-  /// Attaches to the slot's segment. A segment that is not trk in size and magic is left exactly as it is.
+  /// Attaches to the segment of the slot. A segment whose size or magic is not that of trk is not changed.
   [[nodiscard]] static tl::expected<Segment, SlotFault> attach(int slot) noexcept;
-  /// Attaches, or makes file and segment where there is none. `mode` is the new segment's, whatever the umask. Takes
-  /// over from a maker that died half way. Where others make or remove it at this moment, the fault is_transient().
+  /// Attaches, or creates file and segment if there is none. `mode` applies to the new segment, independent of the
+  /// umask. Completes a segment whose creator died. If others create or remove it at this moment, the fault
+  /// is_transient().
   [[nodiscard]] static tl::expected<Segment, SlotFault> attach_or_create(int slot, const SegmentLayout&,
                                                                          int mode) noexcept;
 
@@ -119,7 +119,7 @@ class Segment {
   Segment& operator=(Segment&&) noexcept;
   ~Segment() { close(); }
 
-  /// Ends the attachment as the destructor does. Closing again does nothing.
+  /// Detaches, as the destructor does. Closing again does nothing.
   void close() noexcept;
 
   const SegmentLayout& layout() const noexcept { return *layout_; }
@@ -127,44 +127,45 @@ class Segment {
   bool writable() const noexcept { return writable_; }
 
   std::int32_t connected() const noexcept;
-  /// This attachment included.
-  Attendance attendance() const noexcept;
-  std::size_t attachments() const noexcept { return attendance().attachments; }
-  /// Whether a 32-bit program is attached to a segment of 64-bit programs: its `connected` is where their magic ends.
-  /// It counts and writes elsewhere, so that its records are not seen here.
+  /// Includes this attachment.
+  AttachInfo attach_info() const noexcept;
+  std::size_t attachments() const noexcept { return attach_info().attachments; }
+  /// Whether a 32-bit program is attached to a segment of 64-bit programs: its `connected` overlaps the end of their
+  /// magic. It writes at other offsets, so that its records cannot be read here.
   bool has_32_bit_program() const noexcept;
-  /// `look_up`: ask for the slot's file and key, too; without it only `removed` is noticed, by one system call.
-  SegmentFate fate(bool look_up) const noexcept;
+  /// With `look_up`, also checks file and key of the slot; without it, detects only `removed`, with one system call.
+  SegmentStatus status(bool look_up) const noexcept;
 
   std::uint16_t params_counter() const noexcept { return counter(layout_->params_counter); }
   std::uint16_t constants_counter() const noexcept { return counter(layout_->constants_counter); }
-  /// Whether the newest parameters are of a writer that wakes who waits: one of this package, not of the field.
+  /// Whether the newest parameters are from a writer that wakes waiting readers: one of this package, not an existing
+  /// program.
   bool is_announced() const noexcept;
-  /// Somebody who waits until the word is no longer `value`.
+  /// A reader that waits until the word is no longer `value`.
   struct Waiter {
     const std::uint32_t* word;
     std::uint32_t value;
   };
-  /// The next write of a writer that wakes changes the word and wakes who sleeps for it (a futex between processes).
-  /// What was written before is not missed by who looks after this call and then sleeps. Must be writable().
+  /// The next write of a writer that wakes readers changes the word and wakes those that sleep on it (a futex between
+  /// processes). To miss nothing, check for new records after this call and before sleeping. Must be writable().
   Waiter wait_for_write() const noexcept;
-  /// Copies the newest record. False when a writer changed it every time: then `into` holds nothing of use.
+  /// Copies the newest parameters. False if a writer changed them during every copy; then `into` is undefined.
   [[nodiscard]] bool copy_params(RecordImage& into) const noexcept;
   /// Copies the newest constants. False as above.
   [[nodiscard]] bool copy_constants(RecordImage& into) const noexcept;
 
-  /// Writes the next record. The fault is that the segment's layout cannot hold it (a counter above 32 bits in an i386
-  /// segment, a number that is not finite): then nothing is written. Must be writable().
+  /// Writes the next record. If the layout of the segment cannot hold it (a counter above 32 bits in an i386 segment, a
+  /// number that is not finite), nothing is written. Must be writable().
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraParams&) noexcept;
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraConstants&) noexcept;
-  /// Writes parameters that are in the segment's layout already, of its `params_size`.
+  /// Writes parameters that are already in the layout of the segment, with its `params_size`.
   void write_params(std::string_view image) noexcept {
     announce();
     put(layout_->params_counter, layout_->params, image);
   }
 
-  /// trkMemRecreate: removes this segment and goes on in a fresh one with the same contents. On a fault there is no
-  /// segment left: the object is closed.
+  /// trkMemRecreate: replaces this segment by a new one with the same contents. After a fault there is no segment, and
+  /// the object is closed.
   [[nodiscard]] tl::expected<void, SlotFault> recreate(int mode) noexcept;
 
  private:
@@ -183,7 +184,7 @@ class Segment {
   void count_in() noexcept;
   void correct_count() noexcept;
   void finish() noexcept;
-  char* let_go() noexcept;
+  char* release() noexcept;
 
   int slot_;
   int id_;

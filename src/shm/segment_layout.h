@@ -1,5 +1,4 @@
-// Where things lie in shared memory segments (doc/wire_formats.md, "Shared memory"): one table for all that the field
-// has.
+// The layouts of shared memory segments (doc/wire_formats.md, "Shared memory"): one table for all existing programs.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +10,10 @@
 
 namespace trk_bridge::shm {
 
-/// What every trk segment begins with, as the maker's unsigned long.
+/// Every trk segment begins with this number, as an unsigned long of its creator.
 inline constexpr std::uint32_t segment_magic = 0x2357BD01;
 
-/// Where things lie in a segment, in bytes from its beginning. The size identifies the layout.
+/// Offsets in a segment, in bytes from its beginning. The size identifies the layout.
 struct SegmentLayout {
   std::size_t size;
   wire::Layout record;
@@ -24,30 +23,30 @@ struct SegmentLayout {
   std::array<std::size_t, 2> params, constants;
 };
 
-/// What segments are made of where nobody says otherwise: every program of today can attach to it.
+/// The default layout of new segments: every program in use can attach to it.
 inline constexpr wire::Layout default_layout{
     wire::Generation::identified, wire::Abi::lp64,
     __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? wire::ByteOrder::little : wire::ByteOrder::big};
 
-/// Two 32-bit words in the rest of the page behind a segment, which is mapped and shared like the segment and which no
-/// program of the field knows. 0 in a new segment.
+/// Two 32-bit words in the rest of the page after a segment. It is mapped and shared like the segment, and existing
+/// programs do not use it. 0 in a new segment.
 namespace page_rest {
-/// announcement_mark and the counter of the parameters that were last written by a program that wakes readers.
+/// announcement_mark and the counter of the last parameters that were written by a program that wakes readers.
 inline constexpr std::size_t announcement = 1024;
-/// A futex. Odd: somebody waits for the next write, which makes it even, another number than all before, and wakes.
+/// A futex. Odd: a reader waits for the next write. That write changes it to a new, even number and wakes the reader.
 inline constexpr std::size_t wake_word = 1028;
 }  // namespace page_rest
 inline constexpr std::uint32_t announcement_mark = 0x77610000;
 
-/// Null when no segment has this size.
+/// Null if no segment has this size.
 const SegmentLayout* layout_of_size(std::size_t) noexcept;
-/// Null when no segment on this machine has this record layout.
+/// Null if no segment on this machine has this record layout.
 const SegmentLayout* layout_of(wire::Layout) noexcept;
-/// The layout of the other generation when its programs can attach to a segment of this one, which is larger; they find
-/// the counters where it has them, and write records of their own. Null when there is none.
+/// The layout of the other generation, if it is smaller: then its programs can attach to a segment of this layout. They
+/// find the counters at the same offsets and write records in their own layout. Null if there is none.
 const SegmentLayout* smaller_generation(const SegmentLayout&) noexcept;
 
-/// Where a current record lies, in a segment's own layout or in that of the other generation.
+/// The bytes of a current record in the own layout of a segment and in that of the other generation.
 struct Range {
   std::size_t begin, end;
 };
@@ -55,7 +54,7 @@ constexpr Range range_of(const std::array<std::size_t, 2>& own, std::size_t own_
                          const std::array<std::size_t, 2>& other, std::size_t other_size, std::size_t element) {
   return {std::min(own[element], other[element]), std::max(own[element] + own_size, other[element] + other_size)};
 }
-/// No such range is longer.
+/// The largest size of such a range.
 inline constexpr std::size_t record_room = 256;
 
 }  // namespace trk_bridge::shm

@@ -37,7 +37,7 @@ std::string describe_problem(const SlotFault& f) {
       return "no segment";
     case SlotProblem::unfinished:
       return "segment of " + size + " bytes is empty: its maker has not finished it";
-    case SlotProblem::deserted:
+    case SlotProblem::abandoned:
       return "nobody has attached to its segment";
     case SlotProblem::foreign:
       if (layout_of_size(f.size) == nullptr) return "segment of " + size + " bytes is no trk layout";
@@ -149,7 +149,7 @@ tl::expected<bool, SlotFault> make_slot_file(int slot, bool replace) noexcept {
   return tl::unexpected(slot_fault(SlotProblem::no_key, slot));
 }
 
-Attendance attendance_of(const shmid_ds& state) noexcept {
+AttachInfo attach_info_of(const shmid_ds& state) noexcept {
   return {state.shm_nattch, state.shm_lpid, state.shm_atime, state.shm_dtime};
 }
 

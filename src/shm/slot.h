@@ -1,4 +1,4 @@
-// A slot's file and key, and the segment that they lead to.
+// File and key of a slot, and the segment with this key.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 namespace trk_bridge::shm {
 
 inline SlotFault slot_fault(SlotProblem problem, int slot) noexcept { return {problem, slot, 0, 0, 0, 0}; }
-/// With errno.
+/// A fault with the current errno.
 SlotFault system_fault(int slot) noexcept;
 
-/// The slot file's name without allocating.
+/// The name of the slot file, without allocation.
 class SlotPath {
  public:
   /// The slot must be valid.
@@ -28,10 +28,10 @@ class SlotPath {
   std::array<char, 32> text_;
 };
 
-/// The key of the slot's file: a fault when there is no such regular file, or the key is of no use.
+/// The key of the slot file; a fault if there is no such regular file, or if the key cannot be used.
 [[nodiscard]] tl::expected<key_t, SlotFault> slot_key(int slot) noexcept;
 
-/// A file beside the slot's, to change places with it. Deleted in the end.
+/// A temporary file in the same directory that can be exchanged with the slot file. The destructor deletes it.
 class SpareFile {
  public:
   [[nodiscard]] static tl::expected<SpareFile, SlotFault> make(int slot) noexcept;
@@ -40,11 +40,11 @@ class SpareFile {
   ~SpareFile();
 
   const char* c_str() const noexcept { return name_.data(); }
-  /// Is the slot's file from now on, in the place of one that is there.
+  /// Becomes the slot file and replaces an existing one.
   bool replace_slot_file() const noexcept;
-  /// Is the slot's file as well; not where there is one: false, with EEXIST in errno.
+  /// Becomes the slot file, too, unless there is one: false, with EEXIST in errno.
   bool become_slot_file() const noexcept;
-  /// The slot's file is this one from now on, so that nobody finds it. False when it is gone, or somebody else's.
+  /// Moves the slot file to this name, so that no program finds it. False if it is gone or belongs to somebody else.
   bool take_slot_file() const noexcept;
 
  private:
@@ -54,23 +54,22 @@ class SpareFile {
   std::array<char, 48> name_{};
 };
 
-/// Makes the slot's file, with `replace` in the place of one whose key is of no use. Its key is not 0, is no other
-/// slot's and leads to no segment: an inode used again would lead into the segment of a slot whose file was deleted.
-/// False when there is a file already.
+/// Creates the slot file; with `replace`, replaces one with an unusable key. Its key is not 0, and no other slot and no
+/// segment has it: a reused inode could give the key of a slot whose file was deleted. False if there is a file
+/// already.
 [[nodiscard]] tl::expected<bool, SlotFault> make_slot_file(int slot, bool replace) noexcept;
 
-/// A fault when another slot's file has this key, which the slot's own file had: key_shared, or no_file when it is
-/// gone.
+/// A fault if the file of another slot has the same key: key_shared, or no_file if the own file is gone.
 [[nodiscard]] tl::expected<void, SlotFault> check_unshared(int slot, key_t key) noexcept;
 
-Attendance attendance_of(const shmid_ds& state) noexcept;
+AttachInfo attach_info_of(const shmid_ds& state) noexcept;
 
 struct FoundSegment {
   key_t key;
   int id;
   shmid_ds state;
 };
-/// The segment that the slot means at this moment. Attaches to nothing.
+/// The segment that the slot has at this moment. Does not attach.
 [[nodiscard]] tl::expected<FoundSegment, SlotFault> find_segment(int slot) noexcept;
 
 }  // namespace trk_bridge::shm

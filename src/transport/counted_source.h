@@ -1,4 +1,4 @@
-// What every source has: its counts, the state that follows from them, and an end.
+// Base class of all sources: counts, the state derived from them, and the end.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace trk_bridge::transport {
 
-/// Counts what a source hands out and derives its state from that. A source that waits for more than stop_event() adds
-/// to stop(). The protected functions belong to the thread of receive().
+/// Counts what a source returns and derives its state from the counts. A source that waits for more than stop_event()
+/// extends stop(). The protected functions belong to the thread of receive().
 class CountedSource : public Source {
  public:
   void stop() noexcept override { stop_.set(); }
@@ -21,16 +21,16 @@ class CountedSource : public Source {
   explicit CountedSource(std::string name) : name_(std::move(name)) {}
 
   const StopEvent& stop_event() const noexcept { return stop_; }
-  /// What receive() answers from now on whatever comes: stopped, ended or failed. Otherwise `sample`.
+  /// `stopped`, `ended` or `failed` if receive() must return this from now on; otherwise `sample`.
   Event final_event() const noexcept { return stop_.is_set() ? Event::stopped : counts_.end; }
 
-  /// Each counts, and returns what receive() should.
+  /// Each of these counts and returns the result for receive().
   Event sample(const Sample&) noexcept;
   Event malformed() noexcept;
   Event ended() noexcept;
-  /// The source cannot go on: `error` is an errno.
+  /// The source cannot continue: `error` is an errno.
   Event failed(int error) noexcept;
-  /// Counts a datagram of a sender that is not allowed.
+  /// Counts a datagram from a sender that is not allowed.
   void refused(const Sender&) noexcept;
 
  private:
@@ -38,11 +38,11 @@ class CountedSource : public Source {
     std::uint64_t records = 0, malformed = 0, refused = 0, unknown_format_bits = 0, doubtful = 0;
     const char* last_doubt = "";
     Sender last_refused;
-    Event end = Event::sample;  ///< ended and failed are for good
+    Event end = Event::sample;  ///< ended and failed are permanent
     int error = 0;
   };
 
-  /// Adds what only this kind of source knows; `waiting_for` where it is waiting. Any thread.
+  /// Adds the values of this kind of source, and `waiting_for` if it is waiting. Any thread.
   virtual void complete(SourceStatistics&) const = 0;
 
   const std::string name_;

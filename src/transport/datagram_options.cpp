@@ -13,7 +13,7 @@ constexpr std::string_view interface_allowed = "an address of this machine or an
 
 bool assign_interface(const std::string& value, std::string& to) {
   to = value;
-  return may_name_interface(value);
+  return is_interface_name_or_address(value);
 }
 
 bool assign_hosts(const std::string& value, std::vector<std::string>& to) {

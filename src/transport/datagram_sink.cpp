@@ -112,7 +112,7 @@ class DatagramSink final : public Sink {
   const steady_clock::duration period_;
   std::unordered_map<std::uint32_t, Remembered> remembered_;  // by id
 
-  std::atomic<bool> has_way_{true};      // the system's own choice, or an interface that can be sent through
+  std::atomic<bool> can_send_{true};     // the system's own choice, or an interface that can be sent through
   std::optional<InterfaceWatch> watch_;  // the last one: its thread uses the others
 };
 
@@ -120,7 +120,7 @@ void DatagramSink::follow_interface() {
   const auto interface = find_interface(interface_);
   // Without an address the kernel sends IPv4 from 0.0.0.0, which no receiver takes.
   const bool has_address = interface && (target_.family() != AF_INET || interface->has_ipv4);
-  has_way_ = has_address && send_through(socket_.get(), target_, *interface);
+  can_send_ = has_address && send_through(socket_.get(), target_, *interface);
 }
 
 bool DatagramSink::follow_interface_or_wait() noexcept {
@@ -134,7 +134,7 @@ bool DatagramSink::follow_interface_or_wait() noexcept {
 }
 
 Written DatagramSink::send_datagram(std::string_view datagram) noexcept {
-  if (!has_way_) return refused(SinkReason::no_interface);
+  if (!can_send_) return refused(SinkReason::no_interface);
   ssize_t written;
   do {
     // Not connected, so that an unreachable receiver does not fail the next datagram.

@@ -60,8 +60,8 @@ class DatagramSource final : public CountedSource {
   void complete(SourceStatistics& statistics) const override;
 
   const Sockets sockets_;
-  Descriptor readable_;   // a set with all sockets in it, where there are several
-  std::size_t turn_ = 0;  // the socket that is asked first
+  Descriptor readable_;           // a set with all sockets in it, where there are several
+  std::size_t first_socket_ = 0;  // the socket that is asked first
   std::unique_ptr<Decoder> decoder_;
   bool has_datagram_ = false;  // the decoder has
   Sender sender_;
@@ -71,10 +71,10 @@ class DatagramSource final : public CountedSource {
 /// Of several sockets none is waited for, and each has its turn.
 std::optional<ReceiveSocket::Datagram> DatagramSource::next_datagram(bool waits, int& error) noexcept {
   for (std::size_t i = 0; i < sockets_.size(); ++i) {
-    ReceiveSocket& socket = *sockets_[turn_];
-    turn_ = (turn_ + 1) % sockets_.size();
+    ReceiveSocket& socket = *sockets_[first_socket_];
+    first_socket_ = (first_socket_ + 1) % sockets_.size();
     const auto datagram = socket.next(waits, error);
-    if (datagram || is_lasting(error)) return datagram;
+    if (datagram || is_permanent(error)) return datagram;
   }
   return std::nullopt;
 }
@@ -112,7 +112,7 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
       decoder_->begin(datagram->bytes, sender_);
       continue;
     }
-    if (is_lasting(error)) return failed(error);
+    if (is_permanent(error)) return failed(error);
     // One system call waits and reads; with a time limit there are three.
     if (waits) continue;
     // With no time to wait, what is there was asked for.
@@ -145,7 +145,7 @@ void DatagramSource::complete(SourceStatistics& statistics) const {
     statistics.kernel_drops += socket->kernel_drops();
     statistics.receive_buffer += static_cast<std::uint64_t>(socket->granted_buffer());
     statistics.wanted_buffer += static_cast<std::uint64_t>(socket->wanted_buffer());
-    if (why.empty()) why = socket->why_nothing_can_come();
+    if (why.empty()) why = socket->why_nothing_can_arrive();
   }
   if (statistics.state == SourceState::failed) return;
   if (why.empty() && statistics.state == SourceState::waiting) why = "bound, nothing received yet";

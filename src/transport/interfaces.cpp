@@ -87,7 +87,7 @@ std::optional<Interface> find_in(const std::vector<InterfaceAddress>& known, con
 
 }  // namespace
 
-bool may_name_interface(const std::string& text) {
+bool is_interface_name_or_address(const std::string& text) {
   // The resolver takes 192.0.2 for 192.0.0.2.
   in_addr ipv4{};
   const bool is_number_or_ipv4 = text.find_first_not_of("0123456789.") == std::string::npos;
@@ -99,7 +99,7 @@ bool may_name_interface(const std::string& text) {
 std::string interface_of(const std::string& host, const std::string& interface) {
   if (!interface.empty()) return interface;
   std::string zone = zone_of(host);
-  if (!zone.empty() && !may_name_interface(zone)) {
+  if (!zone.empty() && !is_interface_name_or_address(zone)) {
     throw TransportError("host \"" + host + "\": behind % the name of an interface is allowed");
   }
   return zone;
@@ -107,7 +107,7 @@ std::string interface_of(const std::string& host, const std::string& interface) 
 
 std::optional<Interface> find_interface(const std::string& named) { return find_in(interface_addresses(), named); }
 
-std::string why_no_way_through(const std::string& named) {
+std::string why_unusable(const std::string& named) {
   const auto known = interface_addresses();
   const auto interface = find_in(known, named);
   if (interface) return interface->is_up ? "" : "interface " + named + " is down";
@@ -121,8 +121,8 @@ std::string why_no_way_through(const std::string& named) {
 std::vector<unsigned> multicast_interfaces(int family) {
   std::set<unsigned> indices;
   for (const InterfaceAddress& entry : interface_addresses()) {
-    const bool hears = (entry.flags & IFF_UP) != 0 && (entry.flags & (IFF_MULTICAST | IFF_LOOPBACK)) != 0;
-    if (hears && entry.address.family() == family) indices.insert(entry.index);
+    const bool receives = (entry.flags & IFF_UP) != 0 && (entry.flags & (IFF_MULTICAST | IFF_LOOPBACK)) != 0;
+    if (receives && entry.address.family() == family) indices.insert(entry.index);
   }
   return {indices.begin(), indices.end()};
 }
@@ -153,7 +153,7 @@ void leave_group(int fd, const SocketAddress& group, unsigned index) noexcept {
   (void)change_membership(fd, group, index, MCAST_LEAVE_GROUP);
 }
 
-void hear_joined_only(int fd, int family) {
+void receive_joined_only(int fd, int family) {
   if (family == AF_INET) {
     set_option(fd, IPPROTO_IP, IP_MULTICAST_ALL, 0, "hearing only what was joined");
   } else {

@@ -1,4 +1,4 @@
-// What a decoder remembers of each sender.
+// Data that a decoder stores for each sender.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 
 namespace trk_bridge::transport {
 
-/// Of the last `capacity` senders; of more, the one that was silent longest gives way. Allocates nothing itself.
+/// Data of up to `capacity` senders; a new sender replaces the one that was silent longest. Allocates nothing itself.
 template <typename Value, std::size_t capacity>
 class PerSender {
  public:
-  /// What is known of the sender; null: nothing. It holds until add().
+  /// The data of the sender; null: none. Valid until add().
   Value* find(const Sender& sender) noexcept {
     if (recent_ < count_ && entries_[recent_].sender == sender) return used(recent_);
     for (std::size_t i = 0; i < count_; ++i) {
@@ -24,7 +24,7 @@ class PerSender {
     return nullptr;
   }
 
-  /// Of a sender of whom nothing is known.
+  /// Adds a sender that find() does not find.
   Value& add(const Sender& sender, Value value) {
     std::size_t place = count_;
     if (count_ < capacity) {
@@ -54,7 +54,7 @@ class PerSender {
 
   std::array<Entry, capacity> entries_{};
   std::size_t count_ = 0;
-  std::size_t recent_ = 0;  // most datagrams come from the sender of the one before
+  std::size_t recent_ = 0;  // most datagrams come from the same sender as the previous one
   std::uint64_t uses_ = 0;
 };
 

@@ -105,7 +105,7 @@ Descriptor open_bound(const ReceiveSettings& settings, SocketAddress& address) {
   const bool group = is_multicast(address);
   const bool shareable = group || is_broadcast(address);
   if (shareable) set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1, "sharing the port");
-  if (group) hear_joined_only(fd, address.family());
+  if (group) receive_joined_only(fd, address.family());
   set_option(fd, IPPROTO_IP, IP_FREEBIND, 1, "an address that may come later");
   bind_or_say_why(fd, address, shareable);
   set_buffer(fd, settings.buffer);
@@ -118,7 +118,7 @@ Descriptor open_bound(const ReceiveSettings& settings, SocketAddress& address) {
 
 }  // namespace
 
-bool is_lasting(int error) noexcept {
+bool is_permanent(int error) noexcept {
   return error == EBADF || error == ENOTSOCK || error == EFAULT || error == EINVAL;
 }
 
@@ -144,7 +144,7 @@ ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings)
   socket_ = is_tied ? open_socket(AF_INET6) : open_bound(settings_, address_);
   follow_interfaces({});
   port_ = port_in(is_tied && listens_through_.empty() ? address_ : bound_address(socket_.get()));
-  if (port_ == 0) throw TransportError("port = 0: " + why_nothing_can_come());
+  if (port_ == 0) throw TransportError("port = 0: " + why_nothing_can_arrive());
   set_port(address_, port_);
   name_ = described(settings, address_, port_);
   for (const std::string& host : settings.allow) {
@@ -214,15 +214,15 @@ void ReceiveSocket::follow_interfaces(const InterfaceWatch::Removed& removed) {
   } else if (const auto interface = find_interface(interface_)) {
     wanted = {interface->index};
   }
-  std::optional<TransportError> trouble;
+  std::optional<TransportError> problem;
   for (const unsigned index : wanted) {
     try {
       if (listens_through_.count(index) == 0) listen_through(index);
     } catch (const TransportError& error) {
-      trouble = error;
+      problem = error;
     }
   }
-  if (trouble) throw TransportError(*trouble);
+  if (problem) throw TransportError(*problem);
   // Its name or address has moved to another one.
   if (!interface_.empty() && !wanted.empty()) {
     stop_listening([&wanted](unsigned index) { return index != wanted.front(); });
@@ -230,23 +230,23 @@ void ReceiveSocket::follow_interfaces(const InterfaceWatch::Removed& removed) {
 }
 
 bool ReceiveSocket::follow_or_say_why(const InterfaceWatch::Removed& removed) {
-  std::string trouble;
+  std::string problem;
   try {
     follow_interfaces(removed);
   } catch (const TransportError& error) {
-    trouble = error.what();
+    problem = error.what();
   }
   const std::lock_guard lock(mutex_);
-  trouble_ = std::move(trouble);
-  return trouble_.empty();
+  problem_ = std::move(problem);
+  return problem_.empty();
 }
 
-std::string ReceiveSocket::why_nothing_can_come() const {
+std::string ReceiveSocket::why_nothing_can_arrive() const {
   try {
     if (!interface_.empty()) {
-      if (std::string why = why_no_way_through(interface_); !why.empty()) return why;
+      if (std::string why = why_unusable(interface_); !why.empty()) return why;
     }
-    if (!is_group_ && !is_of_this_machine(bound_address(socket_.get()))) {
+    if (!is_group_ && !is_local(bound_address(socket_.get()))) {
       return "no interface that is up has the address " + settings_.host;
     }
     if (!is_group_ && interface_.empty()) {
@@ -257,7 +257,7 @@ std::string ReceiveSocket::why_nothing_can_come() const {
     return error.what();
   }
   const std::lock_guard lock(mutex_);
-  return trouble_;
+  return problem_;
 }
 
 int ReceiveSocket::granted_buffer() const noexcept { return granted_buffer_of(socket_.get()); }
@@ -275,14 +275,15 @@ void ReceiveSocket::prepare(msghdr& header) const noexcept {
 int ReceiveSocket::fill(bool waits) noexcept {
   // Those that the last call wrote to.
   for (std::size_t i = 0; i < count_; ++i) prepare(headers_[i].msg_hdr);
-  const int came = ::recvmmsg(socket_.get(), headers_.data(), batch, waits ? MSG_WAITFORONE : MSG_DONTWAIT, nullptr);
+  const int received =
+      ::recvmmsg(socket_.get(), headers_.data(), batch, waits ? MSG_WAITFORONE : MSG_DONTWAIT, nullptr);
   // The end of a wait looks like an empty datagram that nobody sent.
-  if (came > 0 && headers_[0].msg_hdr.msg_namelen == 0) {
+  if (received > 0 && headers_[0].msg_hdr.msg_namelen == 0) {
     prepare(headers_[0].msg_hdr);
     errno = EAGAIN;
     return -1;
   }
-  return came;
+  return received;
 }
 
 std::int64_t ReceiveSocket::arrival(std::size_t i) noexcept {
@@ -305,12 +306,12 @@ bool ReceiveSocket::is_allowed(const Sender& sender) const noexcept {
 std::optional<ReceiveSocket::Datagram> ReceiveSocket::next(bool waits, int& error) noexcept {
   error = 0;
   while (next_ == count_) {
-    const int came = fill(waits);
+    const int received = fill(waits);
     next_ = 0;
-    count_ = came > 0 ? static_cast<std::size_t>(came) : 0;
-    if (came > 0) break;
-    if (came < 0 && errno == EINTR) continue;
-    if (came < 0 && errno != EAGAIN && errno != EWOULDBLOCK) error = errno;
+    count_ = received > 0 ? static_cast<std::size_t>(received) : 0;
+    if (received > 0) break;
+    if (received < 0 && errno == EINTR) continue;
+    if (received < 0 && errno != EAGAIN && errno != EWOULDBLOCK) error = errno;
     return std::nullopt;
   }
   const std::size_t i = next_++;

@@ -1,4 +1,4 @@
-// One row of the table of schemes, and how a scheme reads its URLs.
+// The interface of a scheme, and the parsing of URLs and options.
 #pragma once
 
 #include <array>
@@ -21,62 +21,63 @@ struct UrlOption {
   std::string value;
 };
 
-/// `SCHEME:PLACE[?KEY=VALUE[&KEY=VALUE…]]`; the place with its `%XX` still in it, since its parts are split at
-/// characters that they may stand for.
+/// `SCHEME:PLACE[?KEY=VALUE[&KEY=VALUE…]]`. `%XX` in the place is not decoded yet, because the place is first split at
+/// characters that `%XX` may stand for.
 struct Url {
   std::string scheme;
   std::string place;
   std::vector<UrlOption> options;
 };
 
-/// The error says which part is wrong; a key twice is one, too. A text without a colon has no scheme.
+/// The error says which part is wrong; a key that is given twice is an error, too. A text without a colon has no
+/// scheme.
 tl::expected<Url, std::string> split_url(std::string_view url);
 
-/// With every `%XX` replaced by its byte. The error names the text.
+/// Replaces every `%XX` by its byte. The error names the text.
 tl::expected<std::string, std::string> percent_decoded(std::string_view text);
 
-/// `udp://HOST:PORT`, an IPv6 address in its brackets: how messages name the endpoint.
+/// `udp://HOST:PORT`, with an IPv6 address in brackets: the endpoint in messages.
 std::string udp_url(const std::string& host, std::uint16_t port);
 
-/// Which way the bytes go: options differ.
+/// Reading and writing have different options.
 enum class Direction : std::uint8_t { read, write };
 /// "reading", "writing"
 const char* word(Direction) noexcept;
 
 struct Detection;
 
-/// One option as people read it.
+/// One option in the help for users.
 struct OptionHelp {
   std::string_view key;
   std::string_view allowed;
   std::string_view help;  ///< what it does, and its default
 };
 
-/// What a folder of its own gives to the table (endpoints/schemes.h). Errors name the part, its value and what is
-/// allowed.
+/// A row of the table of schemes (endpoints/schemes.h); each scheme has its own folder. Errors name the part, its value
+/// and what is allowed.
 struct Scheme {
   std::string_view name;     ///< "udp"
   std::string_view usage;    ///< "udp://HOST:PORT"
   std::string_view summary;  ///< "trk in UDP datagrams"
-  /// Without those of every sink.
+  /// Without the options that every sink has.
   std::vector<OptionHelp> (*options)(Direction);
-  /// `url` and, for sinks, `form` are the table's to fill in.
+  /// The caller, endpoints, sets `url` and, for sinks, `form`.
   tl::expected<SourceEndpoint, std::string> (*source)(const Url&);
   tl::expected<SinkEndpoint, std::string> (*sink)(const Url&);
-  const Detection* detection = nullptr;  ///< null: not a protocol over UDP
+  const Detection* detection = nullptr;  ///< null if it is not a protocol over UDP
 };
 
-/// The options of every sink, whatever its scheme: they are read by the table, not by schemes.
+/// The options that every sink has. The module endpoints parses them, not the schemes.
 inline constexpr std::array<OptionHelp, 5> form_options{{
-    {"format", "words of the protocol with commas between, as in euler,field_of_view", "Format of what is sent"},
-    {"preset", "a name that trk presets lists", "Format of that receiver, in place of format"},
-    {"id", "whole numbers from 0 to 4294967295", "Camera number in place of the one that came"},
-    {"delay", "0 to 1 seconds, or three such numbers with commas between: of position, rotation and lens",
+    {"format", "words of the protocol separated by commas, as in euler,field_of_view", "Format of what is sent"},
+    {"preset", "a name that trk presets lists", "Format of that receiver, instead of format"},
+    {"id", "whole numbers from 0 to 4294967295", "Camera number to send instead of the received one"},
+    {"delay", "0 to 1 seconds, or three such numbers separated by commas: for position, rotation and lens",
      "Send the camera as it was this long ago (0)"},
-    {"lead", "0 to 0.04 seconds", "Extrapolate the camera at most so far beyond its newest sample (0)"},
+    {"lead", "0 to 0.04 seconds", "Extrapolate the camera at most this far beyond its newest sample (0)"},
 }};
 
-/// One option of a scheme in one direction. `set` is false when the value is not one of the `allowed`.
+/// One option of a scheme in one direction. `set` returns false if the value is not `allowed`.
 template <typename Settings>
 struct Option {
   std::string_view key;
@@ -85,11 +86,11 @@ struct Option {
   bool (*set)(const std::string& value, Settings& settings);
 };
 
-/// The error of an option that `scheme` does not know in this direction.
+/// The error for an option that `scheme` does not have in this direction.
 std::string unknown_option(const std::string& key, std::string_view scheme, Direction direction,
                            const std::vector<std::string_view>& known, const std::vector<std::string_view>& other_way);
 
-/// The keys of tables of options.
+/// The keys of option tables.
 template <typename... Tables>
 std::vector<std::string_view> keys_of(const Tables&... tables) {
   std::vector<std::string_view> keys;
@@ -100,7 +101,7 @@ std::vector<std::string_view> keys_of(const Tables&... tables) {
   return keys;
 }
 
-/// The options of tables as people read them.
+/// The options of tables, in the help for users.
 template <typename... Tables>
 std::vector<OptionHelp> help_of(const Tables&... tables) {
   std::vector<OptionHelp> all;
@@ -111,8 +112,8 @@ std::vector<OptionHelp> help_of(const Tables&... tables) {
   return all;
 }
 
-/// Sets every option of the URL in `settings`, which each of the tables is for. `other_way` are the keys of the other
-/// direction, for better errors.
+/// Sets every option of the URL in `settings`, by the given tables. `other_way` has the keys of the other direction,
+/// for better errors.
 template <typename Settings, typename... Tables>
 tl::expected<void, std::string> set_options(const Url& url, Direction direction, Settings& settings,
                                             const std::vector<std::string_view>& other_way, const Tables&... tables) {
@@ -144,7 +145,7 @@ inline constexpr std::string_view switch_allowed = "0 and 1";
 inline constexpr std::string_view layout_allowed =
     "auto, document and identified, the latter two also followed by _lp64, _llp64 or _i386 and that by _le or _be";
 
-/// All of `text` as a number within the range.
+/// Parses all of `text` as a number within the range.
 template <typename Number>
 std::optional<Number> whole_number(std::string_view text, Number lowest, Number highest, int base = 10) {
   Number number{};
@@ -154,7 +155,7 @@ std::optional<Number> whole_number(std::string_view text, Number lowest, Number 
 }
 std::optional<double> real_number(std::string_view text, double lowest, double highest);
 
-/// Whether there is a value, which `to` then has.
+/// Assigns the value to `to` if there is one; returns whether there is.
 template <typename T, typename U>
 bool assign(const std::optional<T>& value, U& to) {
   if (value) to = *value;

@@ -158,7 +158,7 @@ void set_port(SocketAddress& address, std::uint16_t port) noexcept {
   reinterpret_cast<sockaddr_in&>(address.storage).sin_port = htons(port);
 }
 
-bool is_of_this_machine(SocketAddress address) noexcept {
+bool is_local(SocketAddress address) noexcept {
   const Descriptor probe(::socket(address.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0));
   set_port(address, 0);
   return probe.is_open() && ::bind(probe.get(), address.get(), address.length) == 0;

@@ -1,4 +1,4 @@
-// Sockets: their descriptors, addresses and options.
+// Descriptors, addresses and options of sockets.
 #pragma once
 
 #include <cerrno>
@@ -20,7 +20,7 @@ namespace trk_bridge::transport {
 class Descriptor {
  public:
   Descriptor() = default;
-  /// Takes what a system call gave; negative is none.
+  /// Owns the result of a system call; a negative number is none.
   explicit Descriptor(int fd) noexcept : fd_(fd) {}
   ~Descriptor() { close(); }
   Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
@@ -51,37 +51,38 @@ struct SocketAddress {
   int family() const noexcept { return storage.ss_family; }
 };
 
-/// Every address that `host` (a name, an IPv4 or an IPv6 address, the latter with %ZONE where it needs one) stands for,
-/// IPv4 before IPv6, never none, without zones. Throws TransportError with the host and the resolver's reason.
+/// All addresses of `host` (a name, an IPv4 address, or an IPv6 address with %ZONE if necessary), IPv4 before IPv6, at
+/// least one, without zones. Throws TransportError with the host and the reason of the resolver.
 std::vector<SocketAddress> resolve(const std::string& host, std::uint16_t port);
 
 /// The name of the interface in an IPv6 address with %ZONE; empty for every other host.
 std::string zone_of(const std::string& host);
 
-/// An address written as numbers, without its zone; none when it is not.
+/// A numeric address, without its zone; none for other texts.
 std::optional<SocketAddress> numeric_address(const std::string& text);
 
-/// `::`, which takes IPv4 too when its socket does.
+/// `::`, which includes IPv4 if the socket allows it.
 SocketAddress any_ipv6(std::uint16_t port) noexcept;
 SocketAddress any_ipv4(std::uint16_t port) noexcept;
 
-/// Mapped IPv4 addresses count as IPv4; `none` for other families.
+/// Mapped IPv4 addresses become IPv4; `none` for other families.
 Sender sender_of(const sockaddr_storage& address) noexcept;
 
 bool is_any(const SocketAddress& address) noexcept;
 bool is_multicast(const SocketAddress& address) noexcept;
-/// Whether it is another one on each interface, so that its socket is bound to one interface for good.
+/// Whether the address is link-local, so that its socket is permanently bound to one interface.
 bool needs_zone(const SocketAddress& address) noexcept;
-/// Of the interface that it is on; 0: none is said.
+/// The index of its interface; 0: none given.
 unsigned zone_index(const SocketAddress& address) noexcept;
 void set_zone(SocketAddress& ipv6, unsigned interface_index) noexcept;
 void set_port(SocketAddress& address, std::uint16_t port) noexcept;
-/// Whether a socket can be bound to it now: an interface that is up has it, or it stands for several of this machine.
-bool is_of_this_machine(SocketAddress address) noexcept;
-/// Whether this machine's routes take it for a broadcast address.
+/// Whether a socket can be bound to it now: an interface that is up has it, or it means several addresses of this
+/// machine.
+bool is_local(SocketAddress address) noexcept;
+/// Whether it is a broadcast address by the routes of this machine.
 bool is_broadcast(const SocketAddress& address) noexcept;
 
-/// Where the socket is bound. Throws TransportError.
+/// The address that the socket is bound to. Throws TransportError.
 SocketAddress bound_address(int fd);
 
 /// Throws TransportError: "`what`: the system refused: …".

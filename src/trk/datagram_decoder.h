@@ -1,4 +1,4 @@
-// trk's datagrams to samples.
+// Decodes trk datagrams to samples.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace trk_bridge::trk {
 
-/// Whether a datagram begins as trk or as TrackMen's packet, whatever follows.
+/// Whether a datagram begins like trk or like TrackMen's packet.
 bool claims(std::string_view datagram) noexcept;
 
-/// Decodes with what each sender's records have shown of its layout so far. Remembers the senders of good records only;
-/// past `capacity` the one that was silent longest gives way. TrackMen's packets are told by their magic.
+/// Decodes with a LayoutDetector per sender. Stores only senders of valid records; beyond `capacity`, a new one
+/// replaces the one that was silent longest. TrackMen's packets are recognised by their magic.
 class DatagramDecoder final : public transport::Decoder {
  public:
   static constexpr std::size_t capacity = 64;
 
-  /// `layout` holds for every sender.
+  /// `layout` applies to every sender.
   explicit DatagramDecoder(const wire::LayoutChoice& layout) : layout_(layout) {}
 
   void begin(std::string_view datagram, const transport::Sender&) noexcept override;
@@ -31,7 +31,7 @@ class DatagramDecoder final : public transport::Decoder {
   wire::LayoutChoice layout_;
   std::string_view datagram_;
   transport::Sender sender_;  // of the datagram
-  bool is_given_ = true;      // next() gave what it has
+  bool is_given_ = true;      // next() has returned its sample
   transport::PerSender<wire::LayoutDetector, capacity> detectors_;
 };
 

@@ -1,4 +1,4 @@
-// Records to trk's datagrams.
+// Encodes records to trk datagrams.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace trk_bridge::trk {
 
-/// One datagram a record.
+/// One datagram per record.
 class DatagramEncoder final : public transport::Encoder {
  public:
   explicit DatagramEncoder(const wire::WireForm& form) : form_(form) {}
 
   tl::expected<void, transport::Fault> begin(const wire::CameraParams& params) noexcept override {
-    return keep(wire::encode(params, form_, buffer_, memory_));
+    return keep(wire::encode(params, form_, buffer_, text_cache_));
   }
   tl::expected<void, transport::Fault> begin(const wire::CameraConstants& constants) noexcept override {
     return keep(wire::encode(constants, form_, buffer_));
@@ -33,7 +33,7 @@ class DatagramEncoder final : public transport::Encoder {
 
   wire::WireForm form_;
   wire::Buffer buffer_{};
-  wire::TextCache memory_;
+  wire::TextCache text_cache_;
   std::optional<std::string_view> datagram_;
 };
 

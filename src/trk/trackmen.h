@@ -1,4 +1,5 @@
-// The packet of the plugin of the protocol's present owner (doc/free_d.md, "TrackMen's packet"): read, never written.
+// The packet of the plugin by the present owner of the protocol (doc/free_d.md, "TrackMen's packet"): read, never
+// written.
 #pragma once
 
 #include <string_view>
@@ -13,9 +14,9 @@ namespace trk_bridge::trk {
 /// Whether the datagram begins with the packet's magic, which no datagram of trk does.
 bool is_trackmen(std::string_view datagram) noexcept;
 
-/// Euler angles and image distance, which is that of the packet's angle of view over the packet's chip, so that no
-/// constants are needed; the id is 0. Places of fields in faults are those of ASCII records, 16 and 17 the chip's
-/// sides.
+/// Returns Euler angles and the image distance, computed from the angle of view and the chip in the packet, so that no
+/// constants are needed; the id is 0. Field numbers in faults are those of ASCII records; 16 and 17 are the sides of
+/// the chip.
 [[nodiscard]] tl::expected<wire::CameraParams, wire::Fault> trackmen_params(std::string_view datagram) noexcept;
 
 }  // namespace trk_bridge::trk

@@ -1,4 +1,4 @@
-// trk over UDP: the scheme udp.
+// The scheme udp: trk over UDP.
 #pragma once
 
 #include <memory>

@@ -16,7 +16,7 @@ inline constexpr ByteOrder native_order = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
 constexpr std::uint32_t swap_bytes(std::uint32_t value) noexcept { return __builtin_bswap32(value); }
 constexpr std::uint64_t swap_bytes(std::uint64_t value) noexcept { return __builtin_bswap64(value); }
 
-/// A number of 4 or 8 bytes.
+/// Reads a number of 4 or 8 bytes.
 template <class Number>
 Number load(const char* from, ByteOrder order) noexcept {
   std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t> bits;
@@ -28,7 +28,7 @@ Number load(const char* from, ByteOrder order) noexcept {
   return value;
 }
 
-/// `n` doubles, one behind another.
+/// Reads `n` consecutive doubles.
 template <std::size_t n>
 std::array<double, n> load_doubles(const char* from, ByteOrder order) noexcept {
   std::array<double, n> values;

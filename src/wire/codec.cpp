@@ -19,19 +19,19 @@ static_assert(encoding_at + 1 == header_size);
 constexpr char type_of(const CameraParams&) noexcept { return 'P'; }
 constexpr char type_of(const CameraConstants&) noexcept { return 'C'; }
 
-/// Whether there is nothing but white space and NULs.
+/// Whether the text has only white space and NULs.
 bool is_blank(std::string_view text) noexcept {
   return std::all_of(text.begin(), text.end(), [](char c) { return c == '\0' || is_space(c); });
 }
 
-template <class T, class... Memory>
+template <class T, class... Cache>
 tl::expected<std::string_view, Fault> encode_record(const T& record, WireForm form, Buffer& buffer,
-                                                    Memory&... memory) noexcept {
+                                                    Cache&... cache) noexcept {
   const bool ascii = form.encoding == Encoding::ascii;
   char* const payload = buffer.data() + header_size;
   Fault fault{};
   const std::size_t size =
-      ascii ? write_text(record, payload, fault, memory...) : write_image(record, form.layout, payload, fault);
+      ascii ? write_text(record, payload, fault, cache...) : write_image(record, form.layout, payload, fault);
   if (size == 0) return tl::unexpected(fault);
   std::copy(magic.begin(), magic.end(), buffer.begin());
   buffer[type_at] = type_of(record);
@@ -40,7 +40,7 @@ tl::expected<std::string_view, Fault> encode_record(const T& record, WireForm fo
   return std::string_view(buffer.data(), header_size + size + (ascii ? 1 : 0));
 }
 
-/// Of what `read` reads, a copy.
+/// Returns the record that `read` reads.
 template <class T, class Read>
 tl::expected<T, Fault> record_of(Read&& read) noexcept {
   tl::expected<T, Fault> record;
@@ -49,7 +49,7 @@ tl::expected<T, Fault> record_of(Read&& read) noexcept {
   return record;
 }
 
-/// What `write` writes into the buffer.
+/// Returns what `write` writes into the buffer.
 template <class Write>
 tl::expected<std::string_view, Fault> written_to(Buffer& buffer, Write&& write) noexcept {
   Fault fault{};
@@ -67,11 +67,10 @@ bool decode(std::string_view datagram, LayoutDetector& detector, Record& into, D
     return false;
   };
   if (datagram.size() > max_datagram) return refuse(Reason::too_long);
-  // A length that the compiler knows costs no call.
-  const bool begins_well = datagram.size() < magic.size()
-                               ? datagram == magic.substr(0, datagram.size())
-                               : std::memcmp(datagram.data(), magic.data(), magic.size()) == 0;
-  if (!begins_well) return refuse(Reason::bad_magic);
+  // With a constant length, the compiler makes no function call.
+  const bool has_magic = datagram.size() < magic.size() ? datagram == magic.substr(0, datagram.size())
+                                                        : std::memcmp(datagram.data(), magic.data(), magic.size()) == 0;
+  if (!has_magic) return refuse(Reason::bad_magic);
   if (datagram.size() <= type_at) return refuse(Reason::truncated);
   const char type = datagram[type_at];
   if (type != 'P' && type != 'C') return refuse(Reason::bad_type);
@@ -106,8 +105,8 @@ tl::expected<std::string_view, Fault> encode(const CameraParams& params, WireFor
 }
 
 tl::expected<std::string_view, Fault> encode(const CameraParams& params, WireForm form, Buffer& buffer,
-                                             TextCache& memory) noexcept {
-  return encode_record(params, form, buffer, memory);
+                                             TextCache& cache) noexcept {
+  return encode_record(params, form, buffer, cache);
 }
 
 tl::expected<std::string_view, Fault> encode(const CameraConstants& constants, WireForm form, Buffer& buffer) noexcept {

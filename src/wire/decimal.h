@@ -6,7 +6,7 @@
 
 namespace trk_bridge::wire {
 
-/// Those that are whole numbers of 64 bits: 10^0 to 10^19.
+/// Powers that fit into 64-bit whole numbers: 10^0 to 10^19.
 inline constexpr auto powers_of_ten = [] {
   std::array<std::uint64_t, 20> powers{};
   std::uint64_t power = 1;
@@ -17,7 +17,7 @@ inline constexpr auto powers_of_ten = [] {
   return powers;
 }();
 
-/// Those that are exact as doubles: 10^0 to 10^22.
+/// Powers that are exact as doubles: 10^0 to 10^22.
 inline constexpr std::array<double, 23> exact_powers_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                             1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                             1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};

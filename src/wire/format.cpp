@@ -17,7 +17,7 @@ struct Word {
 
 constexpr std::uint32_t angle_bits = vertical | diagonal;
 
-/// In the document's order (section 6.2).
+/// In the order of the document (section 6.2).
 constexpr std::array<Word, 19> words{{{"matrix", euler, 0},
                                       {"euler", 0, euler},
                                       {"camera_to_studio", studio_to_camera, 0},
@@ -87,7 +87,7 @@ tl::expected<std::uint32_t, std::string> format_from_words(std::string_view text
   for (std::string_view name = take_word(text); !name.empty(); name = take_word(text)) {
     const std::optional<Word> word = find(name);
     if (!word) {
-      std::string error = "'" + std::string(name) + "' is no format word; those are";
+      std::string error = "'" + std::string(name) + "' is not a format word; allowed are";
       for (const Word& known : words) error += ' ' + std::string(known.name);
       return tl::unexpected(error);
     }
@@ -103,7 +103,8 @@ tl::expected<void, std::string> check_writable(std::uint32_t mask) {
                           hexadecimal(known_format_bits));
   }
   if (has(mask, angle_bits)) {
-    return tl::unexpected("format " + hexadecimal(mask) + " says vertical and diagonal; only one of them is allowed");
+    return tl::unexpected("format " + hexadecimal(mask) +
+                          " has both vertical and diagonal; only one of them is allowed");
   }
   return {};
 }

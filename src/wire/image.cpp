@@ -13,7 +13,7 @@ namespace trk_bridge::wire {
 
 namespace {
 
-/// Calls visit(place, number) for every double that counts.
+/// Calls visit(place, number) for every double that the format uses.
 template <class Visit>
 void for_each_number(const CameraParams& p, Visit&& visit) noexcept {
   const auto from = [&visit](std::size_t place) {
@@ -36,7 +36,7 @@ void for_each_number(const CameraConstants& c, Visit&& visit) noexcept {
 
 template <class Record>
 bool is_finite(const Record& record) noexcept {
-  // Bit 63, into which an exponent of ones carries when its lowest bit is added.
+  // An exponent of all ones carries into bit 63 when its lowest bit is added.
   constexpr std::uint64_t exponent = 0x7FF0'0000'0000'0000, lowest = 0x0010'0000'0000'0000;
   std::uint64_t carried = 0;
   for_each_number(record, [&carried](std::size_t, double value) {
@@ -47,7 +47,7 @@ bool is_finite(const Record& record) noexcept {
   return carried >> 63U == 0;
 }
 
-/// Of the first number that is not finite.
+/// The fault of the first number that is not finite.
 template <class Record>
 Fault not_finite(const Record& record) noexcept {
   FirstFault fault;
@@ -99,7 +99,7 @@ void load_record(const char* image, const Layout& layout, CameraConstants& c) no
   for_each_chip_field(load_from<order>(image + shape.chip), c);
 }
 
-/// The whole of an image, with zeros between the fields.
+/// Writes an image completely, with zeros between the fields.
 template <ByteOrder order>
 void store_record(const CameraParams& p, const Layout& layout, char* image) noexcept {
   const ParamsShape shape = params_shape(layout.generation, layout.abi);
@@ -140,7 +140,7 @@ std::size_t size_of(const CameraConstants&, const Layout& layout) noexcept {
   return constants_shape(layout.generation, layout.abi).size;
 }
 
-/// Whether the layout has room for what the record counts.
+/// Whether the layout can hold the counter of the record.
 bool counter_fits(const CameraParams& p, const Layout& layout) noexcept {
   return params_shape(layout.generation, layout.abi).counter_width == 8 ||
          p.counter <= std::numeric_limits<std::uint32_t>::max();

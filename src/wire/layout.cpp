@@ -17,7 +17,7 @@ std::optional<T> find(const std::array<Named<T>, n>& all, std::string_view name)
   return std::nullopt;
 }
 
-/// What stands before the next '_', which is taken off the front of `text` with it.
+/// Removes the text up to and including the next '_' from `text`, and returns it without the '_'.
 std::string_view take_part(std::string_view& text) {
   const std::size_t end = text.find('_');
   const std::string_view part = text.substr(0, end);

@@ -17,13 +17,13 @@ namespace trk_bridge::wire {
 
 namespace {
 
-/// Ids, masks with bits yet to come and picture sizes are below this.
+/// Ids, masks with bits of future versions and image sizes are below this.
 constexpr std::uint32_t small_number = 0x10000;
-/// A first word below this, before a zero, is rather the number of a camera than a format.
+/// A first word below this, followed by a zero, is more probably the id of a camera than a format.
 constexpr std::uint32_t camera_numbers = 16;
 
-/// The layouts that have one size and are not ruled out by what the user gave. Of those that differ only in the counter
-/// `layouts` has the first.
+/// The layouts of one size that match what the user has given. Of those that differ only in the counter, `layouts` has
+/// the first.
 struct Candidates {
   std::array<Layout, generations.size() * byte_orders.size()> layouts{};
   std::size_t count = 0;
@@ -57,10 +57,10 @@ Candidates candidates_for(std::size_t size, const LayoutChoice& given, Size size
   return found;
 }
 
-/// A number that a camera could have, or one that is not finite, a fault of its own. Bytes that never were a double
-/// seldom look like one.
+/// Whether a camera could have this number. A number that is not finite also counts as plausible: it is reported as
+/// another fault. Other bytes, read as a double, seldom look plausible.
 bool is_plausible(double value) noexcept {
-  // Magnitudes are in the order of their bits. No branches, for many are asked one after another.
+  // Magnitudes have the same order as their bits. Without branches, because many are checked in a row.
   constexpr auto bits_of = [](double number) { return __builtin_bit_cast(std::uint64_t, number); };
   constexpr std::uint64_t least = bits_of(1e-50) + 1, limit = bits_of(1e12);
   constexpr std::uint64_t infinite = bits_of(std::numeric_limits<double>::infinity());
@@ -70,7 +70,7 @@ bool is_plausible(double value) noexcept {
   return is_likely | is_zero | is_not_finite;
 }
 
-/// Whether the doubles are ones that a record of this format has. `is_matrix` says what is one.
+/// Whether the doubles are plausible for a record of this format. `is_matrix` checks a matrix.
 bool transform_fits(std::string_view image, const Layout& layout, std::uint32_t format,
                     bool (*is_matrix)(const std::array<double, 16>&) noexcept) noexcept {
   const ParamsShape shape = params_shape(layout.generation, layout.abi);
@@ -78,7 +78,7 @@ bool transform_fits(std::string_view image, const Layout& layout, std::uint32_t 
   if (!has(format, euler)) return is_matrix(matrix);
   if (is_rigid(matrix)) return false;
   constexpr std::size_t euler_numbers = 6;
-  // Focus and aperture stay out: senders write infinity in many ways.
+  // Focus and aperture are not checked: senders write infinity in many ways.
   constexpr std::size_t lens_numbers_before_focus = 5;
   const auto lens = load_doubles<lens_numbers_before_focus>(image.data() + shape.lens, layout.byte_order);
   bool plausible = true;
@@ -90,20 +90,20 @@ bool transform_fits(std::string_view image, const Layout& layout, std::uint32_t 
 }
 
 constexpr unsigned best_words = 2;
-/// How well the id and the format look: known bits 2, bits that could be known one day 1, anything else 0.
+/// How plausible the id and the format are: known bits 2, bits of possible future versions 1, anything else 0.
 unsigned words_grade(std::uint32_t id, std::uint32_t format) noexcept {
   if (id >= small_number) return format <= known_format_bits ? 1 : 0;
   if (format <= known_format_bits) return best_words;
   return format < small_number ? 1 : 0;
 }
 
-/// The generation that the first two words speak for when nothing else does: padding is zero rather than a known mask,
-/// and the default format is sent by cameras with low numbers.
+/// The generation that is more probable by the first two words alone: padding is usually zero and not a known mask, and
+/// cameras that send the default format have low numbers.
 Generation likely_generation(std::uint32_t first, std::uint32_t second) noexcept {
   return second != 0 || first < camera_numbers ? Generation::identified : Generation::document;
 }
 
-/// The first words of a parameter image; the id is 0 where the generation has none.
+/// The first words of a parameter image; the id is 0 if the generation has none.
 struct Words {
   std::uint32_t first, second, id, format;
 };
@@ -115,12 +115,12 @@ inline Words words_of(std::string_view image, const Layout& layout) noexcept {
                                                      : Words{first, second, 0, first};
 }
 
-/// One way to read a parameter image, and what speaks for it.
+/// One way to read a parameter image, and how plausible it is.
 struct Reading {
   Layout layout;
   unsigned words = 0;
   bool fits = false;
-  bool known = false;  ///< of the generation that the sender is known to speak
+  bool known = false;  ///< of the generation that the sender is known to use
   unsigned weight = 0;
 };
 
@@ -134,7 +134,7 @@ Reading rate(std::string_view image, Layout layout, std::optional<Generation> kn
   const bool likely = layout.generation == likely_generation(words.first, words.second);
   const bool same_order = seen && seen->byte_order == layout.byte_order;
   const bool little = layout.byte_order == ByteOrder::little;
-  // Each outweighs all those behind it.
+  // Each term outweighs all that follow.
   r.weight = (r.fits ? 64U : 0U) + (r.known ? 32U : 0U) + r.words * 8U + (likely ? 4U : 0U) + (same_order ? 2U : 0U) +
              (little ? 1U : 0U);
   return r;
@@ -142,14 +142,14 @@ Reading rate(std::string_view image, Layout layout, std::optional<Generation> kn
 
 struct Choice {
   Reading best;
-  bool ambiguous = false;  ///< the other generation would read as well
+  bool ambiguous = false;  ///< the record is valid in the other generation, too
 };
 
 Choice choose(std::string_view image, const Candidates& candidates, std::optional<Generation> known,
               std::optional<Layout> seen) noexcept {
   std::array<Reading, generations.size() * byte_orders.size()> readings;
   std::size_t count = 0, best = 0;
-  // The wrong words neither outweigh good ones that fit nor make them ambiguous.
+  // Wrong words neither outweigh good ones that fit nor make them ambiguous.
   for (const bool with_good_words : {true, false}) {
     for (const Layout layout : candidates) {
       const Words words = words_of(image, layout);
@@ -172,7 +172,7 @@ bool is_picture_size(std::int32_t value) noexcept {
   return std::abs(static_cast<std::int64_t>(value)) < std::int64_t{small_number};
 }
 
-/// Whether a picture may have these sides.
+/// Whether these sides are plausible for an image.
 bool is_picture(double width, double height) noexcept {
   constexpr double longest = 8;
   return width > 0 && height > 0 && width <= longest * height && height <= longest * width;
@@ -182,7 +182,7 @@ bool is_valid(const CameraConstants& c) noexcept {
   bool valid = true;
   for_each_image_field([&valid](const Field&, std::int32_t value) { valid = valid && is_picture_size(value); }, c);
   for_each_chip_field([&valid](const Field&, double value) { valid = valid && is_plausible(value); }, c);
-  // A size has both its sides or none: when the id is taken for the width, one is missing.
+  // Either both sides of a size are 0 or none: if the id is read as the width, one of them is 0.
   return valid && (c.image_width == 0) == (c.image_height == 0) && (c.chip_width == 0) == (c.chip_height == 0);
 }
 
@@ -235,7 +235,7 @@ bool LayoutDetectorAccess::params(std::string_view image, LayoutDetector& detect
   if (detector.seen_ && known == detector.seen_->generation && params_size(*detector.seen_) == image.size()) {
     const Layout& seen = *detector.seen_;
     const Words words = words_of(image, seen);
-    // What fits, has the known generation and the best of words and comes as before outweighs every other reading.
+    // If it fits, has the known generation, the best words and the last layout, no other reading can outweigh it.
     if (words_grade(words.id, words.format) == best_words && transform_fits(image, seen, words.format, is_affine)) {
       return read(image, detector, seen, params, form, fault);
     }

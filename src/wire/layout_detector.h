@@ -1,4 +1,4 @@
-// Binary records whose layout is to be detected.
+// Reads binary records and detects their layout.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@
 
 namespace trk_bridge::wire {
 
-/// Reads one image into `into` and, when it is good, remembers in the `LayoutDetector` what it shows of the sender.
+/// Reads one image into `into` and, if it is valid, stores in the `LayoutDetector` what it shows about the sender.
 struct LayoutDetectorAccess {
   [[nodiscard]] static bool params(std::string_view image, LayoutDetector& detector, Record& into, DecodedForm& form,
                                    Fault& fault) noexcept;
@@ -15,18 +15,18 @@ struct LayoutDetectorAccess {
                                       Fault& fault) noexcept;
 
  private:
-  /// Reads `into` in this layout and remembers that.
+  /// Reads `into` in this layout and stores the layout.
   static bool read(std::string_view image, LayoutDetector& detector, const Layout&, CameraParams& into,
                    DecodedForm& form, Fault& fault) noexcept;
-  /// The counter of a 200-byte image, and its abi into `layout`.
+  /// The counter of a 200-byte image; its abi is written to `layout`.
   static std::uint64_t counter(std::string_view image, Layout& layout, LayoutDetector& detector) noexcept;
 };
 
-/// How well an image of this layout's size reads in it, for who has more than its size and its sender to go by: 0 no
-/// program writes this, 1 possible, 2 well. Stricter than the detector: a matrix has to be rigid, and the format mask
-/// and the id must not both be beyond what is known.
+/// How plausible an image is in this layout, whose size it has: 0 no program writes this, 1 possible, 2 plausible. For
+/// callers with more information than size and sender. Stricter than the detector: a matrix must be rigid, and the
+/// format mask and the id must not both be unknown.
 [[nodiscard]] unsigned params_grade(std::string_view image, Layout) noexcept;
-/// The same of constants: 2 has a picture and a chip of likely sides, 1 may have zeros there.
+/// The same for constants: with 2, image and chip have plausible sides; with 1, they may be zero.
 [[nodiscard]] unsigned constants_grade(std::string_view image, Layout) noexcept;
 
 }  // namespace trk_bridge::wire

@@ -1,4 +1,4 @@
-// Every value that a layout is made of, with its word in `layout=…` of a URL.
+// All values of the parts of a layout, with their words in `layout=…` of a URL.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ constexpr std::string_view name_of(const std::array<Named<T>, n>& all, T value) 
   return "?";
 }
 
-/// Whether each value is the index of its entry, so that tables can be made by value.
+/// Whether each value is the index of its entry, so that tables can be indexed by value.
 template <class T, std::size_t n>
 constexpr bool is_in_order(const std::array<Named<T>, n>& all) noexcept {
   for (std::size_t i = 0; i < n; ++i) {

@@ -9,7 +9,7 @@ namespace trk_bridge::wire {
 
 namespace {
 
-/// Takes a sign off the front; true for a minus.
+/// Removes a sign from the front; true for a minus.
 bool take_sign(std::string_view& word) noexcept {
   if (word.empty() || (word.front() != '+' && word.front() != '-')) return false;
   const bool minus = word.front() == '-';
@@ -17,7 +17,7 @@ bool take_sign(std::string_view& word) noexcept {
   return minus;
 }
 
-/// The whole of `digits`, all of them digits of `base`; behind a minus when T is signed.
+/// All of `digits` must be digits of `base`, after a minus if T is signed.
 template <class T>
 NumberFault read_whole(std::string_view digits, T& value, int base) noexcept {
   const char* const end = digits.data() + digits.size();
@@ -27,8 +27,8 @@ NumberFault read_whole(std::string_view digits, T& value, int base) noexcept {
   return std::nullopt;
 }
 
-/// Whether an unsigned decimal that is outside the range of doubles is so because it is too small. It is so far
-/// from 1 that the sign of its decimal exponent decides.
+/// Whether an unsigned decimal outside the range of doubles is too small. It is so far from 1 that the sign of its
+/// decimal exponent is sufficient.
 bool is_tiny(std::string_view word) noexcept {
   constexpr long cap = 1000000;
   const std::size_t e = std::min(word.find_first_of("eE"), word.size());

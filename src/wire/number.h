@@ -1,5 +1,5 @@
-// Words of ASCII records to numbers, by std::from_chars: exact, and the same in every locale. Whatever word it is;
-// plain_number.h is quicker where it is one of the usual.
+// Converts words of ASCII records to numbers with std::from_chars: exact, and the same in every locale. For all words;
+// plain_number.h is faster for common ones.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace trk_bridge::wire {
 
-/// Why a word is not the number asked for; nothing when it is.
+/// Why a word is not a valid number; empty if it is.
 using NumberFault = std::optional<Reason>;
 
-/// Decimal as strtod takes it, without hexadecimal. Too large is out_of_range; too small is 0, with its sign; the words
-/// for NaN and infinity are not_finite.
+/// Decimal as for strtod, but not hexadecimal. Too large is out_of_range; too small is 0, with its sign; the words for
+/// NaN and infinity are not_finite.
 NumberFault read_number(std::string_view word, double& value) noexcept;
 
-/// Decimal with an optional sign, leading zeros counting for nothing.
+/// Decimal with an optional sign; leading zeros have no effect.
 NumberFault read_number(std::string_view word, std::int32_t& value) noexcept;
 NumberFault read_number(std::string_view word, std::uint64_t& value) noexcept;
 

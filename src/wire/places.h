@@ -1,4 +1,4 @@
-// The places of fields: the numbers by which faults name them.
+// The places of fields: their numbers in faults.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace trk_bridge::wire {
 
-/// Rows of a matrix that text carries; the fourth is 0 0 0 1.
+/// Rows of a matrix in text; the fourth is 0 0 0 1.
 inline constexpr std::size_t text_rows = 3;
 
 inline constexpr std::size_t id_place = 0;
@@ -19,7 +19,7 @@ inline constexpr std::size_t transform_place = 2;
 inline constexpr std::size_t image_place = 1;
 inline constexpr std::size_t chip_place = 7;
 
-/// Id, format and counter are no lens fields.
+/// Id, format and counter are not lens fields.
 inline constexpr std::size_t lens_fields = field_count<CameraParams>() - 3;
 
 constexpr std::size_t lens_place(std::uint32_t format) noexcept {
@@ -28,7 +28,7 @@ constexpr std::size_t lens_place(std::uint32_t format) noexcept {
 constexpr std::size_t counter_place(std::uint32_t format) noexcept { return lens_place(format) + lens_fields; }
 static_assert(counter_place(euler) == 15 && counter_place(0) == 21, "fields of the ASCII records");
 
-/// Place of `matrix[index]`. The bottom row has none in the text and takes that of the element above it.
+/// Place of `matrix[index]`. The bottom row is not in the text; it uses the place of the element above it.
 constexpr std::size_t matrix_place(std::size_t index) noexcept {
   const std::size_t row = index % 4 < text_rows ? index % 4 : text_rows - 1;
   return transform_place + text_rows * (index / 4) + row;
@@ -38,7 +38,7 @@ constexpr Fault about_field(Reason reason, std::size_t place) noexcept {
   return Fault{reason, static_cast<std::uint8_t>(place), true};
 }
 
-/// The first of the faults noted, for a record is refused for one.
+/// Keeps the first of several faults, which is the one that is reported.
 class FirstFault {
  public:
   explicit operator bool() const noexcept { return noted_; }

@@ -1,4 +1,4 @@
-// Numbers as senders write them, taken off a text in one pass. What is not so plain is left to number.h.
+// Reads common forms of numbers from a text in one pass; number.h reads all others.
 #pragma once
 
 #include <cfloat>
@@ -16,20 +16,20 @@ namespace trk_bridge::wire {
 
 constexpr bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
-/// More digits may not fit 64 bits.
+/// More digits may not fit into 64 bits.
 inline constexpr std::ptrdiff_t most_plain_digits = 19;
 
-/// Appends the digits at `at` to those of `number`, which counts for nothing when these are too many. Returns what is
-/// behind them.
+/// Appends the digits at `at` to those of `number`, which is invalid if there are too many. Returns the position after
+/// them.
 inline const char* take_digits(const char* at, const char* end, std::uint64_t& number) noexcept {
   constexpr std::size_t width = 8;
   while (end - at >= static_cast<std::ptrdiff_t>(width)) {
     const std::uint64_t bytes = load<std::uint64_t>(at, ByteOrder::little) ^ 0x3030303030303030U;
-    // The high bit of the first byte that is no digit; those of later ones are not sure.
+    // Has the high bit of the first byte that is not a digit; the high bits of later bytes may be wrong.
     const std::uint64_t others = (bytes | (bytes + 0x7676767676767676U)) & 0x8080808080808080U;
     const std::size_t count = others == 0 ? width : static_cast<std::size_t>(__builtin_ctzll(others)) / width;
     if (count == 0) return at;
-    // Zeros before them; then neighbours become one number, three times.
+    // Pads with leading zeros, then combines neighbouring numbers three times.
     std::uint64_t digits = bytes << (8 * (width - count));
     digits = (digits * 10 + (digits >> 8U)) & 0x00FF00FF00FF00FFU;
     digits = (digits * 100 + (digits >> 16U)) & 0x0000FFFF0000FFFFU;
@@ -42,7 +42,7 @@ inline const char* take_digits(const char* at, const char* end, std::uint64_t& n
   return at;
 }
 
-/// digits * 10^exponent, rounded to the nearest; false when it is beyond what doubles hold.
+/// digits * 10^exponent, rounded to the nearest; false if it is outside the range of doubles.
 inline bool scale(std::uint64_t digits, int exponent, double& value) noexcept {
   const auto nearest = fast_float::compute_float<fast_float::binary_format<double>>(exponent, digits);
   constexpr int beyond = 0x7FF;
@@ -52,7 +52,7 @@ inline bool scale(std::uint64_t digits, int exponent, double& value) noexcept {
   return true;
 }
 
-/// Whether digits * 10^exponent is one operation of two doubles, which rounds once.
+/// Whether digits * 10^exponent is one operation of two exact doubles, and so rounded once.
 constexpr bool is_exact(std::uint64_t digits, int exponent) noexcept {
   constexpr int largest = static_cast<int>(exact_powers_of_ten.size()) - 1;
   constexpr bool doubles_are_evaluated_as_such = FLT_EVAL_METHOD == 0;
@@ -60,16 +60,16 @@ constexpr bool is_exact(std::uint64_t digits, int exponent) noexcept {
          exponent <= largest;
 }
 
-/// Of the digits from `begin` to `end`, with a point or without.
+/// The number of leading zeros from `begin` to `end`, which may have a point.
 inline std::ptrdiff_t leading_zeros(const char* begin, const char* end) noexcept {
   std::ptrdiff_t zeros = 0;
   for (; begin != end && (*begin == '0' || *begin == '.'); ++begin) zeros += *begin == '0' ? 1 : 0;
   return zeros;
 }
 
-/// The number at `at`, where a word begins that a white space before `end` ends. Returns that white space; null when
-/// the number is not plain: with more digits than `most_plain_digits` or a plus, an exponent of more than four, or no
-/// number.
+/// Reads the number at `at`, a word that must be followed by white space before `end`. Returns the position of that
+/// white space; null if the word is not plain: more digits than `most_plain_digits`, a plus, an exponent of more than
+/// four digits, or not a number.
 inline const char* read_plain_number(const char* at, const char* end, double& value) noexcept {
   const bool minus = *at == '-';
   if (minus) ++at;
@@ -108,12 +108,12 @@ inline const char* read_plain_number(const char* at, const char* end, double& va
   return at;
 }
 
-/// Digits, up to `most_plain_digits`; null when the word at `at` is anything else.
+/// Reads up to `most_plain_digits` digits; null if the word at `at` is anything else.
 inline const char* read_plain_number(const char* at, const char* end, std::uint64_t& value) noexcept {
   value = 0;
-  const char* const behind = take_digits(at, end, value);
-  const bool is_whole_word = behind != at && (behind == end || is_space(*behind));
-  return is_whole_word && behind - at <= most_plain_digits ? behind : nullptr;
+  const char* const after = take_digits(at, end, value);
+  const bool is_whole_word = after != at && (after == end || is_space(*after));
+  return is_whole_word && after - at <= most_plain_digits ? after : nullptr;
 }
 
 }  // namespace trk_bridge::wire

@@ -22,7 +22,7 @@ bool is_rigid(const std::array<double, 16>& m) noexcept {
     for (std::size_t b = a; b < 3; ++b) {
       double dot = 0;
       for (std::size_t i = 0; i < 3; ++i) dot += m[4 * a + i] * m[4 * b + i];
-      // Written so that NaN fails.
+      // This form rejects NaN.
       if (!(std::abs(dot - (a == b ? 1 : 0)) <= tolerance)) return false;
     }
   }

@@ -15,7 +15,7 @@ namespace trk_bridge::wire {
 
 namespace {
 
-/// Takes the fields of a record off a text, one after another, until one is wrong.
+/// Reads the fields of a record from a text, one after another, until one is wrong.
 class Reader {
  public:
   explicit Reader(std::string_view text) noexcept : at_(text.data()), end_(text.data() + text.size()), last_(end_) {
@@ -37,25 +37,25 @@ class Reader {
   void number(std::size_t place, T& value) noexcept {
     if (fault_) return;
     skip_space();
-    const char* behind = nullptr;
+    const char* after = nullptr;
     if constexpr (std::is_floating_point_v<T>) {
-      if (at_ < last_) behind = read_plain_number(at_, end_, value);
+      if (at_ < last_) after = read_plain_number(at_, end_, value);
     } else if constexpr (std::is_unsigned_v<T>) {
-      behind = read_plain_number(at_, end_, value);
+      after = read_plain_number(at_, end_, value);
     }
-    if (behind != nullptr) {
-      at_ = behind;
+    if (after != nullptr) {
+      at_ = after;
       return;
     }
     field(place, [&value](std::string_view word) { return read_number(word, value); });
   }
 
-  /// A visitor of consecutive fields, the first of which has this place.
+  /// A visitor that reads consecutive fields, the first of which has this place.
   auto numbers_from(std::size_t place) noexcept {
     return [this, place](const Field&, auto& value) mutable { number(place++, value); };
   }
 
-  /// False where there was a fault: the first, counting what stands behind the last field.
+  /// False if there was a fault, which is the first one. Text after the last field is a fault, too.
   bool finish(Fault& fault) noexcept {
     skip_space();
     if (at_ != end_) fault_.note({Reason::trailing_text});
@@ -80,7 +80,7 @@ class Reader {
 
   const char* at_;
   const char* const end_;
-  const char* last_;  // the word that no white space ends
+  const char* last_;  // the last word, which is not followed by white space
   FirstFault fault_;
 };
 
@@ -96,10 +96,10 @@ void read_matrix(Reader& reader, std::array<double, 16>& matrix) noexcept {
 
 }  // namespace
 
-/// Puts the fields of a record one after another, one space between, until one cannot be written.
+/// Writes the fields of a record, separated by one space, until one cannot be written.
 class TextWriter {
  public:
-  explicit TextWriter(char* to, TextCache* memory = nullptr) noexcept : begin_(to), at_(to), memory_(memory) {}
+  explicit TextWriter(char* to, TextCache* cache = nullptr) noexcept : begin_(to), at_(to), cache_(cache) {}
   static_assert(sizeof TextCache::Number::text == longest_number);
 
   void id(std::uint32_t value) noexcept {
@@ -119,13 +119,13 @@ class TextWriter {
   void number(std::size_t place, double value) noexcept {
     if (!std::isfinite(value)) return fault_.note(about_field(Reason::not_finite, place));
     separate();
-    if (memory_ == nullptr) {
+    if (cache_ == nullptr) {
       at_ = write_shortest(value, at_);
       return;
     }
     std::uint64_t bits;
     std::memcpy(&bits, &value, sizeof bits);
-    TextCache::Number& last = memory_->numbers_[place - transform_place];
+    TextCache::Number& last = cache_->numbers_[place - transform_place];
     if (last.bits != bits || last.length == 0) {
       char* const end = write_shortest(value, at_);
       last.bits = bits;
@@ -143,12 +143,12 @@ class TextWriter {
     at_ = std::to_chars(at_, limit(), value).ptr;
   }
 
-  /// A visitor of consecutive fields, the first of which has this place.
+  /// A visitor that writes consecutive fields, the first of which has this place.
   auto numbers_from(std::size_t place) noexcept {
     return [this, place](const Field&, auto value) mutable { number(place++, value); };
   }
 
-  /// How much was written; 0 where there was a fault, the first.
+  /// The number of bytes written; 0 and the first fault if there was one.
   std::size_t finish(Fault& fault) const noexcept {
     if (fault_) fault = *fault_;
     return fault_ ? 0 : static_cast<std::size_t>(at_ - begin_);
@@ -162,7 +162,7 @@ class TextWriter {
 
   char* const begin_;
   char* at_;
-  TextCache* const memory_;
+  TextCache* const cache_;
   FirstFault fault_;
 };
 
@@ -214,8 +214,8 @@ std::size_t write_text(const CameraParams& p, char* to, Fault& fault) noexcept {
   return write_params(p, TextWriter(to), fault);
 }
 
-std::size_t write_text(const CameraParams& p, char* to, Fault& fault, TextCache& memory) noexcept {
-  return write_params(p, TextWriter(to, &memory), fault);
+std::size_t write_text(const CameraParams& p, char* to, Fault& fault, TextCache& cache) noexcept {
+  return write_params(p, TextWriter(to, &cache), fault);
 }
 
 std::size_t write_text(const CameraConstants& c, char* to, Fault& fault) noexcept {

@@ -1,4 +1,4 @@
-// Words in text, as C's isspace and tolower see them in the "C" locale, whatever the locale is.
+// Words in text. Spaces and case as for isspace and tolower in the "C" locale, independent of the current locale.
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@ constexpr bool is_space(char c) noexcept { return c == ' ' || (c >= '\t' && c <=
 
 constexpr char to_lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// The next word of `text`, which is taken off its front; empty at the end.
+/// Removes the next word from the front of `text` and returns it; empty at the end.
 constexpr std::string_view take_word(std::string_view& text) noexcept {
   std::size_t begin = 0;
   while (begin < text.size() && is_space(text[begin])) ++begin;
@@ -20,7 +20,7 @@ constexpr std::string_view take_word(std::string_view& text) noexcept {
   return word;
 }
 
-/// Equal but for case.
+/// Whether two words are equal, ignoring case.
 constexpr bool same_word(std::string_view a, std::string_view b) noexcept {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i) {

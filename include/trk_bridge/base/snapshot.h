@@ -1,4 +1,4 @@
-// A value that one thread sets while others read it whole.
+// A value that one thread writes while others read consistent copies.
 #pragma once
 
 #include <array>
@@ -10,7 +10,8 @@
 
 namespace trk_bridge::base {
 
-/// One writer, any number of readers, no lock: the writer never waits, a reader copies again while it is being written.
+/// One writer, any number of readers, no lock: the writer never waits, a reader copies again if the value was being
+/// written.
 template <typename T>
 class Snapshot {
   static_assert(std::is_trivially_copyable_v<T>, "the value is copied word by word");
@@ -18,13 +19,13 @@ class Snapshot {
  public:
   Snapshot() { store(T{}); }
 
-  /// Only ever called by one thread at a time.
+  /// Called by one thread at a time.
   void store(const T& value) noexcept {
     Words words{};
     std::memcpy(words.data(), &value, sizeof(T));
     const std::uint64_t version = version_.load(std::memory_order_relaxed);
     version_.store(version + 1, std::memory_order_relaxed);
-    // Each store releases the odd version: whoever reads a new word then finds the version moved.
+    // Each store releases the odd version: a reader of a new word then sees a changed version.
     for (std::size_t i = 0; i < words.size(); ++i) words_[i].store(words[i], std::memory_order_release);
     version_.store(version + 2, std::memory_order_release);
   }

@@ -1,5 +1,5 @@
-// The canonical camera, read from and written to parameter records of any format (doc/conventions.md). z-up on both
-// sides, camera to studio, image distance in mm, shift on the chip in mm, blanks considered.
+// The canonical camera, converted from and to parameter records of any format (doc/conventions.md). Both frames are
+// z-up, the pose is camera to studio, image distance and shift on the chip are in mm, blanks are considered.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,23 @@
 
 namespace trk_bridge::camera {
 
-/// Why something is no camera, no lens or no picture, or cannot be written in a format.
+/// Why there is no camera, lens or image point, or why it cannot be written in a format.
 enum class CameraReason : std::uint8_t {
   not_finite,         ///< a number is NaN or infinite
   not_a_rotation,     ///< the matrix is not orthonormal to 1e-3, is a reflection, or its bottom row is not 0 0 0 1
-  constants_needed,   ///< the format cannot be understood or made without constants, and none are known
-  bad_constants,      ///< constants whose image, chip or blanks leave no picture
+  constants_needed,   ///< the format cannot be read or written without constants, and none are known
+  bad_constants,      ///< sizes of image, chip or blanks that leave no picture
   bad_field_of_view,  ///< an angle outside 0..180 degrees, or an image distance that is not positive
-  bad_format,         ///< a format to be made has unknown bits, or vertical and diagonal at once
-  not_monotonic,      ///< k1, k2 fold the image: no inverse over the range it is used in
-  behind_camera,      ///< a point that is not in front of the camera has no picture
-  no_fit,             ///< no distortion model can be fitted in finite numbers
-  bad_calibration,    ///< K or D of a CameraInfo that no camera has, or of a kind that is not known
-  too_wide,           ///< the image reaches too far off the optical axis to be drawn
+  bad_format,         ///< a format to be written has unknown bits, or both vertical and diagonal
+  not_monotonic,      ///< k1, k2 fold the image: no inverse in the range that is used
+  behind_camera,      ///< the point is not in front of the camera
+  no_fit,             ///< no distortion model with finite coefficients can be fitted
+  bad_calibration,    ///< K or D of a CameraInfo is impossible or of an unknown kind
+  too_wide,           ///< the image extends too far from the optical axis to be drawn
   no_lens,            ///< the records have no lens
 };
 
-/// One line for a person.
+/// One line for users.
 std::string describe(CameraReason);
 
 /// Lens of the canonical camera.
@@ -41,34 +41,34 @@ struct Lens {
   double aperture = 0;
 };
 
-/// Where a camera is and what its lens does at one moment.
+/// Pose and lens of a camera at one moment.
 struct Camera {
-  /// studio_T_camera: camera axes (x right, y forward, z up) in the studio (x right, y into it, z up), metres.
+  /// studio_T_camera: camera axes (x right, y forward, z up) in the studio (x right, y into the studio, z up), metres.
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   Lens lens;
 };
 
-/// A value, or the reason why there is none.
+/// A value, or the reason for the failure.
 template <typename T>
 using Result = tl::expected<T, CameraReason>;
 
-/// Whether constants describe a picture: sizes positive, blanks not negative and smaller than the image, all finite.
-/// The fake chip is not judged: where it is no use it is computed.
+/// Whether constants are valid: sizes positive, blanks not negative and smaller than the image, all finite. The fake
+/// chip is not checked: if it is invalid, it is computed.
 [[nodiscard]] Result<void> check(const wire::CameraConstants&) noexcept;
 
-/// The pose alone, which needs no constants. The nearest rotation where the matrix is one to 1e-3.
+/// The pose only, which needs no constants. A matrix that is a rotation to 1e-3 gives the nearest rotation.
 [[nodiscard]] Result<Eigen::Isometry3d> decode_pose(const wire::CameraParams&) noexcept;
-/// The lens alone. `constants` may be null for image distance and considered blanks with shift on the chip.
+/// The lens only. `constants` may be null for image distance and considered blanks with shift on the chip.
 [[nodiscard]] Result<Lens> decode_lens(const wire::CameraParams&, const wire::CameraConstants* constants) noexcept;
-/// Both. `constants` may be null under the same conditions as for the lens.
+/// Pose and lens. `constants` may be null under the same conditions as for the lens.
 [[nodiscard]] Result<Camera> decode(const wire::CameraParams&, const wire::CameraConstants* constants) noexcept;
 
 /// The camera in `format`; id 0 and counter 0. `constants` may be null under the same conditions.
 [[nodiscard]] Result<wire::CameraParams> encode(const Camera&, std::uint32_t format,
                                                 const wire::CameraConstants* constants) noexcept;
 
-/// Constants to send with parameters in `format`: the fake chip agrees with its aspect option. One that agrees already
-/// to the digits of ASCII records (2e-5) is left alone, as are constants that do not pass check().
+/// Constants to send with parameters in `format`: the fake chip is that of its aspect option. A fake chip that already
+/// agrees to the digits of ASCII records (2e-5) is not changed, nor are constants that do not pass check().
 [[nodiscard]] wire::CameraConstants constants_for(const wire::CameraConstants&, std::uint32_t format) noexcept;
 
 /// Canonical Euler angles (degrees) of a rotation studio_R_camera = Rz(pan) Rx(tilt) Ry(roll): pan and roll in (-180,
@@ -76,9 +76,9 @@ using Result = tl::expected<T, CameraReason>;
 struct PanTiltRoll {
   double pan = 0, tilt = 0, roll = 0;
 };
-/// The canonical angles of a rotation, which must be one to 1e-3.
+/// The canonical angles of a matrix, which must be a rotation to 1e-3.
 [[nodiscard]] PanTiltRoll pan_tilt_roll(const Eigen::Matrix3d& rotation) noexcept;
-/// The way back, exact at multiples of 90 degrees.
+/// The inverse, exact at multiples of 90 degrees.
 [[nodiscard]] Eigen::Matrix3d rotation_of(const PanTiltRoll&) noexcept;
 
 }  // namespace trk_bridge::camera

@@ -1,4 +1,4 @@
-// Records of one camera to one format, with the camera's constants remembered (doc/conventions.md).
+// Converts the records of one camera to one format and stores its constants (doc/conventions.md).
 #pragma once
 
 #include <cstdint>
@@ -11,52 +11,53 @@
 
 namespace trk_bridge::camera {
 
-/// What became of constants that were given to a Converter.
+/// The effect of constants on a Converter.
 enum class ConstantsChange : std::uint8_t {
-  unchanged,  ///< equal to those before in every field, the id as well
-  changed,    ///< the first ones, or they differ: they are used from now on
-  invalid,    ///< they do not pass check(): they are not used, and those before stay
+  unchanged,  ///< equal to the previous ones in every field, including the id
+  changed,    ///< the first ones, or different ones: they are used from now on
+  invalid,    ///< they do not pass check(): the previous ones are kept
 };
 
-/// One set of parameters, decoded and converted. Each part stands by itself: any of them can fail alone.
+/// One set of parameters, decoded and converted. Each part can fail independently.
 struct Converted {
   Result<Eigen::Isometry3d> pose;     ///< studio_T_camera, metres: decode_pose
-  Result<Lens> lens;                  ///< decode_lens: constants_needed where the format needs them and there are none
-  Result<wire::CameraParams> params;  ///< in the converter's format; id and counter as they came
+  Result<Lens> lens;                  ///< decode_lens: constants_needed if the format needs them and there are none
+  Result<wire::CameraParams> params;  ///< in the format of the converter; id and counter unchanged
 };
 
-/// Why a record is no camera, whatever the format: a pose that is not finite or no rotation, or a lens that is not
-/// finite. Without `has_lens` the lens says nothing. None where it is one.
+/// Why a record does not describe a camera in any format: a pose that is not finite or not a rotation, or a lens that
+/// is not finite. Without `has_lens` the lens is not checked. None for a valid camera.
 [[nodiscard]] std::optional<CameraReason> why_not_a_camera(const Converted&, bool has_lens = true) noexcept;
 
-/// Converts one camera's records to one format and remembers the camera's constants. Not synchronised, never allocates.
+/// Converts the records of one camera to one format and stores its constants. Not synchronised, never allocates.
 class Converter {
  public:
-  /// `format` is a FormatBit mask that passes wire::is_writable (with any other, convert() makes no parameters:
-  /// bad_format). Without one, records stay as they are.
+  /// `format` is a FormatBit mask that passes wire::is_writable; with any other, convert() fails with bad_format.
+  /// Without a format, records are not changed.
   explicit Converter(std::optional<std::uint32_t> format = std::nullopt) noexcept : format_(format) {}
 
   std::optional<std::uint32_t> format() const noexcept { return format_; }
 
-  /// Constants of the camera that the parameters come from. Whoever must not use older ones where the new ones are
-  /// unsound calls forget().
+  /// Sets the constants of the camera. A caller that must not use older ones when the new ones are invalid calls
+  /// forget().
   [[nodiscard]] ConstantsChange use(const wire::CameraConstants&) noexcept;
-  /// Back to no constants.
+  /// Removes the constants.
   void forget() noexcept { constants_.reset(); }
 
-  /// The constants as they came; null where none are known.
+  /// The constants as received; null if none are known.
   const wire::CameraConstants* incoming() const noexcept { return constants_ ? &constants_->incoming : nullptr; }
-  /// Those to send with converted parameters: the fake chip agrees with the format (constants_for); the id as it came.
-  /// Null where none are known.
+  /// The constants to send with converted parameters: the fake chip matches the format (constants_for), the id is
+  /// unchanged. Null if none are known.
   const wire::CameraConstants* outgoing() const noexcept { return constants_ ? &constants_->outgoing : nullptr; }
 
-  /// Decodes and converts. Each of pose, fov and centre shift whose own options do not change (keep_aspect, say, only
-  /// concerns what is in terms of the fake chip) keeps the very doubles it came with, whatever they are, unless the
-  /// outgoing constants give it another meaning than the incoming ones; k1, k2, focdist and aperture always do. From
-  /// Euler to Euler the angles stay as well. What changes must be decodable, or there are no parameters.
+  /// Decodes and converts. Pose, fov and centre shift each keep exactly the same doubles, whatever they are, if their
+  /// own options do not change (keep_aspect, for example, matters only for values that use the fake chip) and if the
+  /// outgoing constants give them the same meaning as the incoming ones. k1, k2, focdist and aperture are always kept.
+  /// From Euler to Euler the angles are kept as well. A part that changes must be decodable, or there are no
+  /// parameters.
   [[nodiscard]] Converted convert(const wire::CameraParams&) const noexcept;
 
-  /// A canonical camera in the format, or in euler and nothing else where there is none; id 0 and counter 0.
+  /// A canonical camera in the format, or in `euler` without other options if there is no format; id 0 and counter 0.
   [[nodiscard]] Result<wire::CameraParams> convert(const Camera&) const noexcept;
 
  private:

@@ -1,4 +1,4 @@
-// URLs to sources and sinks: the one place that knows all schemes.
+// Sources and sinks from URLs. Only this module knows all schemes.
 #pragma once
 
 #include <memory>
@@ -11,19 +11,19 @@
 
 namespace trk_bridge::endpoints {
 
-/// Reads a URL to read from. The error names the part, its value and what is allowed; an unknown option's lists the
-/// known ones for that scheme and direction. `%XX` in paths and values stands for a byte (needed for `?`, `&`, `%`).
+/// Parses the URL of a source. The error names the part, its value and what is allowed; for an unknown option it lists
+/// the known ones of that scheme and direction. `%XX` in paths and values stands for a byte (needed for `?`, `&`, `%`).
 tl::expected<transport::SourceEndpoint, std::string> parse_source(std::string_view url);
-/// Reads a URL to write to, likewise. `format=` (words with commas or + between them), `preset=`, `id=`,
-/// `delay=` and `lead=` (seconds) are options of every scheme. In the path of a recording, %Y and others stand for the
-/// time (file/recording_name.h). Of `default_preset` (its name, or empty), only the options of its scheme count, and
-/// only for a URL that says neither format nor preset.
+/// Parses the URL of a sink. Every scheme has the options `format=` (words separated by commas or +), `preset=`, `id=`,
+/// `delay=` and `lead=` (seconds). In the path of a recording, %Y and others stand for the time
+/// (file/recording_name.h). `default_preset` (a name, or empty) only adds its options for the scheme, and only to a URL
+/// without format and preset.
 tl::expected<transport::SinkEndpoint, std::string> parse_sink(std::string_view url,
                                                               std::string_view default_preset = {});
 
-/// Reads a URL and opens it: a wrong URL is a TransportError, too. `field_rate` as in SourceEndpoint::open.
+/// Parses a URL and opens it; throws TransportError, also for a wrong URL. `field_rate` as in SourceEndpoint::open.
 std::unique_ptr<transport::Source> open_source(std::string_view url, double field_rate = 50.0);
-/// Reads a URL and opens it, likewise.
+/// Parses a URL and opens it; throws as open_source().
 std::unique_ptr<transport::Sink> open_sink(std::string_view url);
 
 }  // namespace trk_bridge::endpoints

@@ -1,4 +1,4 @@
-// Records, calibrations and stamps <-> messages. Headers are the caller's: nothing here touches them.
+// Conversion of records, calibrations and stamps to messages and back. Headers are left to the caller.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +17,26 @@
 
 namespace trk_bridge::ros1 {
 
-/// Field by field, in the units of the record's format. What the format does not select (matrix or Euler) is zero.
+/// Field by field, in the units of the format of the record. Of matrix and Euler angles, the one that the format does
+/// not select is zero.
 void to_msg(const wire::CameraParams& params, trk_bridge::CameraParams& message);
 void to_msg(const wire::CameraConstants& constants, trk_bridge::CameraConstants& message);
 
 void to_msg(const base::CountedTimeCode& time_code, trk_bridge::TimeCode& message);
 
-/// What is not known is 0.
+/// Unknown counts are 0.
 void to_msg(std::uint32_t id, const transport::LensEncoders& encoders, trk_bridge::LensEncoders& message);
 
 /// Size, model, D, K, R = identity, P = [K|0]; no binning, no region of interest. Allocates only when `message` is new
 /// or its model changes to a longer one.
 void to_msg(const camera::Calibration& calibration, sensor_msgs::CameraInfo& message);
 
-/// Nanoseconds since 1970 UTC as a ROS time; 0, which is ROS's "no time", for times before 1970 or after 2106.
+/// Nanoseconds since 1970 UTC as a ROS time; 0, which means "no time" in ROS, for times before 1970 or after 2106.
 ::ros::Time to_time(std::int64_t nanoseconds) noexcept;
-/// Nanoseconds since 1970 UTC; 0 for ROS's "no time".
+/// Nanoseconds since 1970 UTC; 0 for "no time" in ROS.
 std::int64_t from_time(const ::ros::Time& time) noexcept;
 
-/// The way back, field by field. Headers are not looked at.
+/// The inverse, field by field. Headers are not used.
 wire::CameraParams from_msg(const trk_bridge::CameraParams& message);
 wire::CameraConstants from_msg(const trk_bridge::CameraConstants& message);
 base::CountedTimeCode from_msg(const trk_bridge::TimeCode& message);

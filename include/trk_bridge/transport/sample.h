@@ -1,4 +1,4 @@
-// A record with where, when and how it came, and why bytes are not one.
+// A received record with its sender, arrival time and encoding; faults.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace trk_bridge::transport {
 /// What `Sender::number` and `Sender::address` mean.
 enum class SenderKind : std::uint8_t { none, ipv4, ipv6, shm, file, memory };
 
-/// An address and port, a slot, or what else a record comes from.
+/// An address and port, a slot, or another origin of a record.
 struct Sender {
   SenderKind kind = SenderKind::none;
   std::array<std::uint8_t, 16> address{};  ///< network byte order; IPv4 in the first four, mapped IPv4 counts as IPv4
@@ -26,7 +26,7 @@ struct Sender {
 };
 
 inline bool operator==(const Sender& a, const Sender& b) noexcept {
-  // Of a size that the compiler knows, and so without a call.
+  // The size is a constant, so that the compiler makes no function call.
   return a.kind == b.kind && a.number == b.number &&
          std::memcmp(a.address.data(), b.address.data(), sizeof a.address) == 0;
 }
@@ -35,16 +35,16 @@ inline bool operator!=(const Sender& a, const Sender& b) noexcept { return !(a =
 /// "192.0.2.7:50123", "[fe80::1]:50123", "slot 7", "file", "memory", "-".
 std::string to_string(const Sender&);
 
-/// Trivially copyable, never allocates. Each protocol makes its own faults; trk's are made from wire::Fault.
+/// Trivially copyable, never allocates. Each protocol has its own faults; those of trk are made from wire::Fault.
 class Fault {
  public:
-  /// The line for a person; called only when somebody reads the fault.
+  /// The text for users; called only when the fault is shown.
   using Describe = std::string (*)(const Fault&);
 
   /// No fault.
   Fault() noexcept = default;
-  /// `name` is a short static text, for counting by reason. `code` and `field` are for `describe`; what they mean is
-  /// the protocol's matter.
+  /// `name` is a short static text, for counting by reason. `code` and `field` are for `describe`; each protocol
+  /// defines what they mean.
   Fault(const char* name, Describe describe, std::uint8_t code, std::int16_t field, std::uint32_t line = 0) noexcept
       : name_(name), describe_(describe), code_(code), field_(field), line_(line) {}
   /// A fault of trk.
@@ -53,9 +53,9 @@ class Fault {
   /// "bad magic"; "none" when there is no fault.
   const char* name() const noexcept { return name_; }
   std::uint8_t code() const noexcept { return code_; }
-  /// Which field it is about; negative when it is about none.
+  /// The field that it refers to; negative: none.
   std::int16_t field() const noexcept { return field_; }
-  /// The line of a file, from 1; 0 where there are no lines.
+  /// The line of a file, from 1; 0 if there are no lines.
   std::uint32_t line() const noexcept { return line_; }
 
   friend bool operator==(const Fault& a, const Fault& b) noexcept { return a.key() == b.key(); }
@@ -76,37 +76,39 @@ class Fault {
   std::uint32_t line_ = 0;
 };
 
-/// What a lens's encoders count, where a protocol tells that. What a count means is the lens's matter (lens/table.h).
+/// Encoder counts of the lens, for protocols that have them. A lens table gives them a meaning (lens/table.h).
 struct LensEncoders {
-  std::optional<std::int32_t> zoom, focus, iris;  ///< none: not told
+  std::optional<std::int32_t> zoom, focus, iris;  ///< none: not sent
 };
 constexpr bool operator==(const LensEncoders& a, const LensEncoders& b) noexcept {
   return a.zoom == b.zoom && a.focus == b.focus && a.iris == b.iris;
 }
 constexpr bool operator!=(const LensEncoders& a, const LensEncoders& b) noexcept { return !(a == b); }
 
-/// What sources hand out. Copying allocates nothing.
+/// What a source returns. Copying allocates nothing.
 struct Sample {
   wire::Record record;
-  std::int64_t arrival = 0;  ///< ns since 1970 UTC: the kernel's receive time for datagrams; for files see the source
+  std::int64_t arrival =
+      0;  ///< ns since 1970 UTC: for datagrams, the receive time of the kernel; for files, see the source
   Sender sender;
-  const char* origin = "";  ///< how it was encoded, for a person; static text: "ASCII", "binary identified_lp64"
+  const char* origin = "";  ///< its encoding, for users; static text: "ASCII", "binary identified_lp64"
 
-  /// False where the protocol has no counter: then the record's is a number of its own, which says nothing of what was
-  /// lost.
+  /// False if the protocol has no counter: then the counter of the record is a running number, which does not show
+  /// losses.
   bool has_counter = true;
-  /// False where the protocol has no lens: then of the record's parameters only the pose says anything.
+  /// False if there is no lens: then only the pose of the parameters is valid.
   bool has_lens = true;
-  LensEncoders encoders;  ///< empty where the protocol has none
-  /// Why it may be wrong although it was accepted: "wrong checksum". Static text for people; empty: no doubt.
+  LensEncoders encoders;  ///< empty if the protocol has none
+  /// Why it may be wrong although it was accepted: "wrong checksum". Static text for users; empty: no doubt.
   const char* doubt = "";
-  /// When the sender sampled the camera by its own clock, ns since 1970 UTC; none where the protocol has no time.
+  /// When the sender sampled the camera, by the clock of the sender, ns since 1970 UTC; none if the protocol has no
+  /// time.
   std::optional<std::int64_t> sample_time;
-  std::optional<base::CountedTimeCode> time_code;  ///< none where the protocol has none
+  std::optional<base::CountedTimeCode> time_code;  ///< none if the protocol has none
 };
 
-/// "ASCII", "binary identified_lp64", "binary document_i386_be", with ", layout guessed" behind it where two layouts
-/// would have done. Static text.
+/// "ASCII", "binary identified_lp64", "binary document_i386_be", followed by ", layout guessed" if two layouts were
+/// possible. Static text.
 const char* origin_of(const wire::WireForm&, bool layout_guessed = false) noexcept;
 
 }  // namespace trk_bridge::transport

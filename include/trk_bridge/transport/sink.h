@@ -1,4 +1,4 @@
-// Where records go: one interface over datagrams, shared memory and files.
+// Sinks: one interface for writing datagrams, shared memory and files.
 #pragma once
 
 #include <cstdint>
@@ -13,45 +13,45 @@
 
 namespace trk_bridge::transport {
 
-/// What kind of fault it is.
+/// The kind of a fault.
 enum class SinkReason : std::uint8_t {
   not_encodable,      ///< `fault` says why
-  no_constants,       ///< a file begins with constants: none were written before the first parameters
-  constants_changed,  ///< a file holds one set of constants: others came, or parameters that belong to them
-  other_camera,       ///< a file holds one camera: the id is not that of its constants
+  no_constants,       ///< a file begins with constants, but parameters were written first
+  constants_changed,  ///< a file has one set of constants: other ones were written, or parameters that belong to them
+  other_camera,       ///< a file has one camera: the id is not that of its constants
   system,             ///< the kernel refused: `error_number`
-  no_interface,       ///< the interface to send through is not there or has no address; writes go out when it has
-  gone,               ///< no segment can be written to: every write looks for one, or creates it
-  closed,             ///< close() was called before
-  exists,             ///< a file of that name is there, and overwriting was not asked for
-  left_over,          ///< a `.part` is there that an interrupted writer left
-  in_use,             ///< another writer writes to the same name
-  not_a_file,         ///< the name is that of something that is neither an ordinary file nor a FIFO
-  no_reader,          ///< no program reads the FIFO
-  no_free_number,     ///< every number that a name can have is taken
-  no_answer,          ///< a write or the end took too long and was not waited for
+  no_interface,  ///< the interface to send through does not exist or has no address; sending continues when it has one
+  gone,          ///< there is no segment to write to: every write looks for one, or creates it
+  closed,        ///< close() was called before
+  exists,        ///< the file exists, and overwriting was not requested
+  left_over,     ///< a `.part` of an interrupted writer exists
+  in_use,        ///< another writer writes a file of the same name
+  not_a_file,    ///< the name belongs to something that is neither a regular file nor a FIFO
+  no_reader,     ///< no program reads the FIFO
+  no_free_number,  ///< every number that a name can have is in use
+  no_answer,       ///< a write or close took too long and was abandoned
 };
 
 /// Why a write or a close failed. Trivially copyable.
 struct SinkFault {
   SinkReason reason{};
-  Fault fault{};         ///< counts with not_encodable
-  int error_number = 0;  ///< counts with system
+  Fault fault{};         ///< used with not_encodable
+  int error_number = 0;  ///< used with system
 };
 bool operator==(const SinkFault&, const SinkFault&) noexcept;
 bool operator<(const SinkFault&, const SinkFault&) noexcept;
 /// One line for a person.
 std::string describe(const SinkFault&);
 
-/// What went out so far. Trivially copyable.
+/// What was written so far. Trivially copyable.
 struct SinkStatistics {
-  std::uint64_t params = 0, constants = 0;  ///< records that went out, repeated constants counted
+  std::uint64_t params = 0, constants = 0;  ///< records written, including repeated constants
   std::uint64_t errors = 0;
 };
 
-/// When a record was true.
+/// The time for which a record is valid.
 struct RecordTime {
-  // NOLINTNEXTLINE(google-explicit-constructor): a time is one without a code
+  // NOLINTNEXTLINE(google-explicit-constructor): a time without a code is complete
   RecordTime(std::int64_t since_1970 = 0, std::optional<base::CountedTimeCode> code = {}) noexcept
       : nanoseconds(since_1970), time_code(code) {}
 
@@ -59,53 +59,52 @@ struct RecordTime {
   std::optional<base::CountedTimeCode> time_code;
 };
 
-/// What a write or a close gives.
+/// The result of a write or a close.
 using Written = tl::expected<void, SinkFault>;
-/// For functions that give a fault.
+/// A fault to return.
 inline tl::unexpected<SinkFault> refused(SinkReason reason) noexcept { return tl::unexpected(SinkFault{reason}); }
-/// Likewise, of an errno.
+/// A fault to return for an errno.
 inline tl::unexpected<SinkFault> refused_by_system(int error_number) noexcept {
   return tl::unexpected(SinkFault{SinkReason::system, {}, error_number});
 }
 
-/// One place that records go to. What is written before or after a failed write is not lost by it. One thread at a
-/// time, but for statistics(), name() and notice().
+/// Writes records to one endpoint. A failed write does not affect the records before and after it. One thread at a
+/// time, except for statistics(), name() and notice().
 ///
-/// Whether constants are new is the caller's matter (camera::Converter knows): a sink writes what it is given.
-/// Receivers of datagrams that join late would never see constants, so that datagram sinks repeat them by themselves.
+/// The caller decides whether constants are new (see camera::Converter): a sink writes all that it gets. Datagram sinks
+/// repeat constants by themselves, for receivers that join late.
 class Sink {
  public:
   virtual ~Sink() = default;
   Sink(const Sink&) = delete;
   Sink& operator=(const Sink&) = delete;
 
-  /// Does what the first write would do first, so that it is known before whether records can go out: a file is
-  /// created, a segment attached or created. May block. Throws TransportError with the reason; a later write, or this
-  /// function called again, tries again. Does nothing where it is done.
+  /// Creates the file, or attaches to or creates the segment, so that errors are known before the first write. May
+  /// block. Throws TransportError with the reason; a later write or call tries again. Does nothing if it is done
+  /// already.
   void prepare();
-  /// Writes one set of parameters; a datagram sink sends the constants of the same id before it when their period has
-  /// passed.
+  /// Writes one set of parameters. A datagram sink first sends the constants of the same id if their period has passed.
   [[nodiscard]] Written write(const wire::CameraParams&, const RecordTime& time = {});
   [[nodiscard]] Written write(const wire::CameraConstants&);
-  /// Ends in order: a file gets its final name. Closing again does nothing. A sink that is destroyed without it ends
-  /// likewise, but cannot report how that went.
+  /// Closes the sink: a file gets its final name. Closing again does nothing. The destructor closes as well, but cannot
+  /// report errors.
   [[nodiscard]] Written close();
 
   /// A consistent snapshot. Any thread.
   SinkStatistics statistics() const noexcept { return published_.load(); }
-  /// The endpoint as a person reads it: "udp to 192.0.2.7:7000", "shm slot 7", "file take.trk". Any thread: a file that
-  /// is named by the time of its first field has its name from then on.
+  /// The endpoint for users: "udp to 192.0.2.7:7000", "shm slot 7", "file take.trk". Any thread. A file that is named
+  /// by the time of its first field has its name from that field on.
   virtual std::string name() const = 0;
-  /// What a person should know though nothing is wrong: recordings that were recovered. Any thread.
+  /// Information for users when nothing is wrong: recordings that were recovered. Any thread.
   virtual std::string notice() const { return {}; }
 
  protected:
   Sink() = default;
-  /// Counts constants that were repeated.
+  /// Counts repeated constants.
   void count_constants() noexcept { ++counts_.constants; }
-  /// Counts parameters that went out though put() gives a fault.
+  /// Counts parameters that were written although put() returns a fault.
   void count_params() noexcept { ++counts_.params; }
-  /// Of the parameters that put() is given.
+  /// The time of the parameters that are passed to put().
   const RecordTime& time() const noexcept { return time_; }
 
  private:

@@ -1,9 +1,9 @@
-// The one list of the fields of the records: how each is called, its unit, and the members that hold it.
+// The list of the fields of the records: names, units, and the members that hold them. It exists only here.
 //
-// The functions for_each_... call `visit(field, member...)` for one field after another in the order of the ASCII
-// records, with that member of each of `records`. These may be of any types that have members of the same names: one
-// record to read or write it, two to compare them, a record and a message to convert one to the other. A type without
-// such a member does not compile.
+// The functions for_each_... call `visit(field, member...)` for each field in the order of the ASCII records, with that
+// member of each of `records`. The records may be of any types with members of these names: one record to read or write
+// it, two to compare them, a record and a message to convert one to the other. A type without such a member does not
+// compile.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,12 @@
 
 namespace trk_bridge::wire {
 
-/// How one field is called and what it is measured in.
+/// Names and unit of one field.
 struct Field {
   const char* name;           ///< in records, messages and parameters
   const char* document_name;  ///< in the document's C structures
   const char* unit;           ///< "m", "px", ...; empty for a plain number
-  /// The format option that changes the unit to `unit_with_option`; 0 when the unit is always the same.
+  /// The format option that changes the unit to `unit_with_option`; 0 if the unit is always the same.
   std::uint32_t option = 0;
   const char* unit_with_option = "";
 
@@ -31,7 +31,8 @@ struct Field {
   }
 };
 
-/// Position and angles, all double. Of messages and C structures pass what holds x, y, z, pan, tilt and roll.
+/// Position and angles, all double. For messages and C structures, pass the member that has x, y, z, pan, tilt and
+/// roll.
 template <class Visit, class... Poses>
 constexpr void for_each_euler_field(Visit&& visit, Poses&... e) {
   visit(Field{"x", "x", "m"}, e.x...);
@@ -42,7 +43,7 @@ constexpr void for_each_euler_field(Visit&& visit, Poses&... e) {
   visit(Field{"roll", "roll", "deg"}, e.roll...);
 }
 
-/// What parameters have between the transform and the counter, all double.
+/// The parameters between the transform and the counter, all double.
 template <class Visit, class... Params>
 constexpr void for_each_lens_field(Visit&& visit, Params&... p) {
   visit(Field{"fov", "fov", "mm", field_of_view, "deg"}, p.fov...);
@@ -54,7 +55,7 @@ constexpr void for_each_lens_field(Visit&& visit, Params&... p) {
   visit(Field{"aperture", "aperture", ""}, p.aperture...);
 }
 
-/// All of the parameters but the transform: that is either `matrix`, an array, or `euler`, with fields of its own.
+/// All parameters except the transform, which is either `matrix`, an array, or `euler`, which has its own fields.
 template <class Visit, class... Params>
 constexpr void for_each_params_field(Visit&& visit, Params&... p) {
   visit(Field{"id", "id", ""}, p.id...);
@@ -83,7 +84,7 @@ constexpr void for_each_chip_field(Visit&& visit, Constants&... c) {
   visit(Field{"fake_chip_height", "fakeChipHeight", "mm"}, c.fake_chip_height...);
 }
 
-/// All of the constants.
+/// All constants.
 template <class Visit, class... Constants>
 constexpr void for_each_constants_field(Visit&& visit, Constants&... c) {
   visit(Field{"id", "id", ""}, c.id...);
@@ -91,7 +92,7 @@ constexpr void for_each_constants_field(Visit&& visit, Constants&... c) {
   for_each_chip_field(visit, c...);
 }
 
-/// The fields of the Record named: CameraParams, CameraConstants or Euler.
+/// The fields of a Record: CameraParams, CameraConstants or Euler.
 template <class Record, class Visit, class... Records>
 constexpr void for_each_field(Visit&& visit, Records&... records) {
   if constexpr (std::is_same_v<Record, CameraParams>) {
@@ -104,7 +105,7 @@ constexpr void for_each_field(Visit&& visit, Records&... records) {
   }
 }
 
-/// How many fields for_each_field<Record>() visits.
+/// Number of fields that for_each_field<Record>() visits.
 template <class Record>
 constexpr std::size_t field_count() noexcept {
   std::size_t count = 0;
@@ -113,7 +114,7 @@ constexpr std::size_t field_count() noexcept {
   return count;
 }
 
-/// Gives the fields of a Record in `to` the values that they have in `from`.
+/// Copies the fields of a Record from `from` to `to`.
 template <class Record, class From, class To>
 constexpr void copy_fields(const From& from, To& to) noexcept {
   const auto copy = [](const Field&, const auto& value, auto& into) {
@@ -131,7 +132,7 @@ constexpr bool same_fields(const Record& a, const Record& b) noexcept {
   return same;
 }
 
-/// Equal for equal parameters and hardly ever for others: 64 bits of FNV-1a, a number at a time.
+/// Equal for equal parameters and almost never for others: a 64-bit FNV-1a hash, one number at a time.
 inline std::uint64_t fingerprint(const CameraParams& params) noexcept {
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto add = [&hash](const Field&, const auto& number) {

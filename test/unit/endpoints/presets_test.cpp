@@ -109,7 +109,7 @@ TEST(PresetsFromYaml, ErrorsNameTheLine) {
   EXPECT_THAT(error_of(good + "b:\n  format: euler\n  send_id: true\n  quirks: none\n"),
               StartsWith("p.yaml:7: preset b: no such key 'send_id', nearest is sends_id"));
   EXPECT_THAT(error_of(good + "b:\n  format: euler oiler\n  sends_id: true\n  quirks: none\n"),
-              StartsWith("p.yaml:6: preset b: format: 'oiler' is no format word; those are matrix euler"));
+              StartsWith("p.yaml:6: preset b: format: 'oiler' is not a format word; allowed are matrix euler"));
   EXPECT_THAT(error_of(good + "b:\n  format: [euler]\n  sends_id: true\n  quirks: none\n"),
               StartsWith("p.yaml:6: preset b: format: must be text"));
   EXPECT_THAT(error_of(good + "b:\n  format: euler\n  sends_id: perhaps\n  quirks: none\n"),

@@ -98,7 +98,7 @@ TEST_F(ReadTake, TheWrongLineIsNamedExactly) {
 }
 
 TEST_F(ReadTake, LinesAreCountedWithCommentsAndBlanks) {
-  EXPECT_THAT(error_of_text("DMC01\n# a\n\n# b\nnonsense\n"), StartsWith(path + ":5: \"nonsense\" is no time code"));
+  EXPECT_THAT(error_of_text("DMC01\n# a\n\n# b\nnonsense\n"), StartsWith(path + ":5: \"nonsense\" is not a time code"));
 }
 
 TEST_F(ReadTake, EveryPartThatIsMissingOrWrong) {

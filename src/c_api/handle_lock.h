@@ -1,4 +1,4 @@
-// A lock that costs one atomic operation where nobody else wants it.
+// A lock that costs one atomic operation if no other thread holds it.
 #pragma once
 
 #include <atomic>
@@ -8,11 +8,11 @@
 
 namespace trk_bridge::c_api {
 
-/// Knows its thread, so that a signal handler that interrupted the holder does not wait for ever. Who waits gives the
-/// processor away: calls on one handle from several threads are rare.
-class TurnLock {
+/// Stores the thread that holds it, so that a signal handler that interrupted this thread does not wait forever. A
+/// waiting thread yields the processor: calls on one handle from several threads are rare.
+class HandleLock {
  public:
-  /// Waits for the lock. False where this thread has it already.
+  /// Locks. False if this thread already holds the lock.
   bool wait() noexcept {
     const void* holder = nullptr;
     while (!holder_.compare_exchange_weak(holder, self(), std::memory_order_acquire, std::memory_order_relaxed)) {
@@ -23,7 +23,7 @@ class TurnLock {
     return true;
   }
 
-  /// False where it was not free within `most`.
+  /// False if it did not become free within `most`.
   bool wait_for(std::chrono::nanoseconds most) noexcept {
     const auto end = std::chrono::steady_clock::now() + most;
     for (;;) {
@@ -39,7 +39,7 @@ class TurnLock {
 
  private:
   static const void* self() noexcept {
-    // Read at every call: the model without a function call.
+    // Used in every call: this model needs no function call.
     static thread_local char me __attribute__((tls_model("initial-exec")));
     return &me;
   }
