@@ -16,7 +16,7 @@ void ParamsRing::push(const wire::CameraParams& params) noexcept {
       begin_with(params);
       break;
     case Order::next:
-      // A counter that wraps is a new count.
+      // After a counter wraps, a new run begins.
       if (last_ && params.counter < given_) {
         begin_with(params);
       } else {
@@ -50,7 +50,7 @@ void ParamsRing::insert(const wire::CameraParams& params) noexcept {
   ++size_;
 }
 
-/// Set `i`; it and all before it leave the ring.
+/// Removes set `i` and all before it, and returns set `i`.
 std::optional<wire::CameraParams> ParamsRing::pop(std::size_t i) noexcept {
   const wire::CameraParams taken = sets_[i];
   std::move(sets_.begin() + i + 1, sets_.begin() + size_, sets_.begin());
@@ -73,7 +73,7 @@ std::optional<wire::CameraParams> ParamsRing::pop_paced(std::uint64_t passed, st
   if (size_ == 0) return std::nullopt;
   const std::uint64_t newest = sets_[size_ - 1].counter;
   if (!last_ || size_ == capacity) return pop_newest();
-  // As differences from the last one, for a sum may be past what a counter holds.
+  // As differences from the last one, because a sum may overflow.
   if (newest - *last_ > passed + tolerated) return pop_newest();
   const auto begin = sets_.begin(), end = begin + size_;
   const auto wanted = std::find_if(begin, end, [&](const auto& set) { return set.counter - *last_ >= passed; });

@@ -13,12 +13,12 @@
 namespace trk_bridge::c_api {
 namespace {
 
-/// Lines that are not sound are reported, and do not end it.
+/// Malformed lines are reported and do not end it.
 using Playback = std::unique_ptr<file::TakeReader>;
 
 using Recording = std::unique_ptr<file::TakeWriter>;
 
-/// What a program leaves open is brought to its place, as buffered files are.
+/// Files that a program has not closed get their final names, as with buffered files.
 void close_recordings() {
   handles<Recording>().close_all_at_exit([](Recording& recording) { return recording->close() ? trkOK : trkFailed; });
 }
@@ -56,7 +56,7 @@ trkError trkFileOpenWrite(const char* fileName, const char* timeCode, const trkC
     const auto code = base::parse_time_code(timeCode);
     if (!code) return trkFailed;
     auto recording = std::make_unique<file::TakeWriter>(fileName, *code, /*overwrite=*/true);
-    // Without constants nothing stays of it.
+    // If it has no constants, it is deleted.
     if (!recording->write(c_api::from_c(*constants))) return trkFailed;
     static std::once_flag registered;
     std::call_once(registered, [] { std::atexit(c_api::close_recordings); });

@@ -24,17 +24,17 @@ using shm::SlotProblem;
 
 std::atomic<unsigned> configured{trkMemDefault};
 
-/// What a handle stands for.
+/// The transfer of a handle.
 using Memory = Link;
 
-/// The steady clock to a few milliseconds, without a system call and in a tenth of its time.
+/// The steady clock with a resolution of a few milliseconds, ten times faster.
 Link::Clock::time_point coarse_now() noexcept {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
   return Link::Clock::time_point(std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec));
 }
 
-/// Of segments that are made. Null, and a line on stderr, where the environment's layout is that of no segment.
+/// The layout of new segments. Null, and a line on stderr, if no segment has the layout in the environment.
 const shm::SegmentLayout* layout_to_make() {
   const auto choice = layout_from_environment();
   if (!choice) return nullptr;
@@ -66,7 +66,7 @@ ReadResult read_new(Memory& memory, trkCameraConstants& into) noexcept {
   return result;
 }
 
-// What is in the layout of this program's own structures is copied as it is.
+// Records in the layout of the structures of this program are copied directly.
 ReadResult read_fresh(Memory& memory, trkCameraParams& into) noexcept {
   shm::RecordImage image;
   std::string_view bytes;
@@ -74,8 +74,8 @@ ReadResult read_fresh(Memory& memory, trkCameraParams& into) noexcept {
   const ReadResult result = memory.read_params(image, bytes, fault);
   if (result != ReadResult::fresh) return result;
   if (has_native_params && memory.read_in() == shm::default_layout) {
-    // By words, as they were copied out of the segment: the processor waits where it is to read what it has just
-    // written in smaller parts.
+    // In words of the same size as they were copied from the segment: a wider load of data that was just written in
+    // smaller parts would stall.
     NativeParams native;
 #pragma GCC unroll 1
     for (std::size_t i = 0; i < native.size(); ++i) {
@@ -91,7 +91,7 @@ ReadResult read_fresh(Memory& memory, trkCameraParams& into) noexcept {
   return result;
 }
 
-// Programs ask far more often than something has come.
+// Programs call this far more often than there are new records.
 inline ReadResult read_new(Memory& memory, trkCameraParams& into) noexcept {
   return memory.has_new_params() ? read_fresh(memory, into) : ReadResult::nothing;
 }

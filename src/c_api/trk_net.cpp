@@ -20,12 +20,13 @@
 namespace trk_bridge::c_api {
 namespace {
 
-// A call ends even when datagrams come faster than it reads them. No receive buffer holds that many.
+// A call ends even if datagrams arrive faster than it reads them. No receive buffer holds this many.
 constexpr int most_datagrams = 32768;
 
 bool is_port(int port) noexcept { return port >= 1 && port <= std::numeric_limits<std::uint16_t>::max(); }
 
-/// One receiving port and what arrived there. It has no use for what a transport::Source adds to the socket.
+/// One receiving port and what arrived there. It uses the socket directly, because it does not need the features of
+/// transport::Source.
 class NetReader {
  public:
   NetReader(std::unique_ptr<transport::ReceiveSocket> socket, bool skips_old)
@@ -75,7 +76,7 @@ class NetReader {
         decoder_.begin(datagram->bytes, datagram->sender);
         take_samples();
       }
-      // All that was there when the call began. Asking once more would double the system calls.
+      // This was all that had arrived when the call began. Another read would double the system calls.
       if (!socket_->has_more()) return true;
     }
     return true;
@@ -124,7 +125,7 @@ class NetReader {
 
 using NetWriter = std::unique_ptr<transport::Sink>;
 
-/// `read(reader)` with the handle's port.
+/// Calls `read(reader)` with the port of the handle.
 template <typename Read>
 trkError receive(trkHandle handle, bool valid_arguments, Read&& read) {
   return guarded([&] {
@@ -154,7 +155,7 @@ trkError open_reader(int port, bool skips_old, trkHandle* handle) {
   });
 }
 
-/// The environment's MULTICAST_TTL; a text that is no TTL is a failure.
+/// Reads MULTICAST_TTL from the environment; false if it is not a TTL.
 bool set_ttl(std::optional<int>& ttl) {
   const char* const text = std::getenv("MULTICAST_TTL");
   if (text == nullptr) return true;

@@ -10,7 +10,7 @@
 namespace trk_bridge::c_api {
 namespace {
 
-/// The length; the text is one of those that trkStringSize is enough for.
+/// Returns the length; the text must fit into trkStringSize.
 int put(std::string_view text, char* buffer) noexcept {
   std::memcpy(buffer, text.data(), text.size());
   buffer[text.size()] = '\0';
@@ -21,13 +21,13 @@ template <typename Record>
 int record_to_string(const Record* record, char* buffer) noexcept {
   if (buffer == nullptr) return 0;
   wire::Buffer text;
-  static_assert(sizeof text <= trkStringSize);  // no record's text fills it
+  static_assert(sizeof text <= trkStringSize);  // no record has a text of this size
   if (record == nullptr) return put("", buffer);
   const auto written = wire::to_text(from_c(*record), text);
   return put(written ? *written : "", buffer);
 }
 
-/// `guarded` for the functions that give 1 when they have understood.
+/// As `guarded`, for functions that return 1 if the text is valid.
 template <typename Call>
 int understood(Call&& call) noexcept {
   return guarded([&] { return call() ? trkOK : trkFailed; }) == trkOK ? 1 : 0;

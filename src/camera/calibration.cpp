@@ -23,7 +23,7 @@ std::array<double, 8> in_opencv_order(const RadialModel& radial) noexcept {
   return {k[0], k[1], 0, 0, k[2], k[3], k[4], k[5]};
 }
 
-/// Coefficients for radii in units of `to`, from such in units of `from`.
+/// Converts coefficients for radii in units of `from` to units of `to`.
 std::array<double, 8> rescaled(std::array<double, 8> d, double from, double to) noexcept {
   const double square = (to / from) * (to / from);
   const std::array<double, 8> factor = {

@@ -21,20 +21,20 @@ std::string describe(CameraReason reason) {
     case CameraReason::bad_field_of_view:
       return "the field of view must be more than 0 and less than 180 degrees, the image distance more than 0 mm";
     case CameraReason::bad_format:
-      return "no record can be made in this format: it has unknown bits, or vertical and diagonal at once";
+      return "no record can be written in this format: it has unknown bits, or both vertical and diagonal";
     case CameraReason::not_monotonic:
-      return "the distortion folds the image over: it has no inverse as far as the image reaches";
+      return "the distortion folds within the image: it has no inverse there";
     case CameraReason::behind_camera:
       return "the point is not in front of the camera";
     case CameraReason::no_fit:
-      return "no distortion model can be fitted to the lens in finite numbers";
+      return "no distortion model with finite coefficients can be fitted to the lens";
     case CameraReason::bad_calibration:
       return "K must be fx 0 cx 0 fy cy 0 0 1 with fx and fy more than 0, D have 0, 4, 5 or 8 coefficients, and all be "
              "finite";
     case CameraReason::no_lens:
       return "the records have no lens";
     case CameraReason::too_wide:
-      return "the image reaches farther than 89 degrees off the optical axis: too wide to be drawn";
+      return "the image extends more than 89 degrees from the optical axis: too wide to be drawn";
   }
   return "unknown reason";
 }

@@ -29,7 +29,7 @@ std::array<Eigen::Vector2d, 4 * edge> border_pixels(double width, double height)
   return pixels;
 }
 
-/// Right for small angles, too.
+/// Accurate for small angles, too.
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept {
   return std::atan2(a.cross(b).norm(), a.dot(b)) * degrees_per_radian;
 }
@@ -47,8 +47,8 @@ void append_line(std::vector<Eigen::Vector3d>& lines, const Point& from, const P
   lines.push_back(to);
 }
 
-/// A point that sees all of the border: the optical axis where it is in the image, since lenses bend along the rays
-/// from there, else the middle of it.
+/// A point from which all of the border is visible: the optical axis if it is in the image, because distortion is
+/// radial from there, else the centre of the border.
 Eigen::Vector3d middle_of(const ImageBorder& border) noexcept {
   const Eigen::Vector3d& first = border.straight[0];
   const Eigen::Vector3d& last = border.straight[2];

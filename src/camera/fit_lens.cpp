@@ -1,4 +1,4 @@
-// CameraInfo to lens.
+// Fits a lens to a CameraInfo or to another distortion.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -16,20 +16,20 @@ constexpr int node_count = 64;
 constexpr int probe_count = 400;
 constexpr int border_points = 32;
 
-/// What is fitted: the inverse of D up to the farthest distorted radius.
+/// The curve to be fitted: the inverse of D up to the largest distorted radius.
 struct View {
   OpenCvLens lens;
   LensInverse inverse;
   double reach = 0;
 };
 
-/// An undistorted radius, and the slope of the distorted one there.
+/// An undistorted radius, and the slope of the distorted radius there.
 struct Undistorted {
   double radius = 0, slope = 0;
 };
 
-/// k1 and k2 of `lens` by least squares of the distorted radius. `undistort` (double to Undistorted) takes distorted
-/// radii up to `reach`, both in units of `unit` mm.
+/// Sets k1 and k2 of `lens` by least squares of the distorted radius. `undistort` (double to Undistorted) accepts
+/// distorted radii up to `reach`; its radii and `reach` are in units of `unit` mm.
 template <typename Undistort>
 void fit_distortion(const Undistort& undistort, double reach, double unit, Lens& lens) noexcept {
   Terms terms(node_count, 2);
@@ -38,7 +38,7 @@ void fit_distortion(const Undistort& undistort, double reach, double unit, Lens&
     const double fraction = chebyshev_node(i, node_count);
     const double distorted = reach * fraction;
     const Undistorted undistorted = undistort(distorted);
-    // An error of the factor moves the distorted point by that much of the radius, as far as the lens lets it through.
+    // An error of the factor moves the distorted point by this weight times the error.
     const double weight = distorted * undistorted.slope;
     const double squared = fraction * fraction;
     terms(i, 0) = weight * squared;
@@ -51,7 +51,7 @@ void fit_distortion(const Undistort& undistort, double reach, double unit, Lens&
   lens.k2 = k[1] / (mm * mm) / (mm * mm);
 }
 
-/// The worst error of the distorted radius, in the same units.
+/// The largest error of the distorted radius, in the same units.
 template <typename Undistort>
 Result<double> radial_residual(const Undistort& undistort, double reach, double unit, const Lens& lens) noexcept {
   Lens centered = lens;
@@ -71,7 +71,7 @@ ValueAndSlope cubic(const std::array<double, 3>& c, double s) noexcept {
   return {1 + s * (c[0] + s * (c[1] + s * c[2])), c[0] + s * (2 * c[1] + s * 3 * c[2])};
 }
 
-/// Radius and slope (of the undistorted over the distorted one), mm; none where the distortion has a pole.
+/// The undistorted radius and its slope over the distorted one, mm; none at a pole of the distortion.
 std::optional<ValueAndSlope> undistorted(const Undistortion& distortion, double r) noexcept {
   const ValueAndSlope n = cubic(distortion.numerator, r * r), d = cubic(distortion.denominator, r * r);
   if (!(d.value > 0)) return std::nullopt;
@@ -79,7 +79,7 @@ std::optional<ValueAndSlope> undistorted(const Undistortion& distortion, double 
   return ValueAndSlope{r * factor, factor + 2 * r * r * (n.slope - factor * d.slope) / d.value};
 }
 
-/// What p1 and p2 add to `pixel`, which is where it is without them.
+/// The displacement of `pixel` by p1 and p2, in pixels; `pixel` is the position without them.
 double tangential_at(const View& view, const Eigen::Vector2d& pixel) noexcept {
   const Eigen::Vector2d distorted = view.lens.on_image(pixel);
   const double radius = distorted.norm();
@@ -89,7 +89,7 @@ double tangential_at(const View& view, const Eigen::Vector2d& pixel) noexcept {
   return std::hypot(view.lens.fx * added.x(), view.lens.fy * added.y());
 }
 
-/// The displacement grows along every ray from the axis, so that the border has the worst.
+/// The displacement increases along every ray from the axis, so that the largest is at the border.
 double worst_tangential(const View& view, const Raster& raster) noexcept {
   if (view.lens.is_radial()) return 0;
   double worst = 0;

@@ -34,7 +34,7 @@ Result<double> field_of_view(double image_distance, double side) noexcept {
   if (!std::isfinite(image_distance)) return tl::unexpected(CameraReason::not_finite);
   if (!(image_distance > 0) || !(side > 0)) return tl::unexpected(CameraReason::bad_field_of_view);
   const double angle = 2 * std::atan2(side / 2, image_distance) * degrees_per_radian;
-  // An image distance far from any lens can round to 0 or 180 degrees, which nobody could read back.
+  // An unrealistic image distance can round to 0 or 180 degrees, which could not be read back.
   if (!(angle > 0 && angle < 180)) return tl::unexpected(CameraReason::bad_field_of_view);
   return angle;
 }
@@ -53,8 +53,8 @@ Eigen::Vector2d undistort(const Lens& lens, const Eigen::Vector2d& distorted) no
 }
 
 double monotonic_radius(const Lens& lens) noexcept {
-  // The slope is 1 + 3 k1 R + 5 k2 R^2 with R the squared radius. In units that keep k1 and k2 at 1 or less nothing
-  // overflows.
+  // The slope is 1 + 3 k1 R + 5 k2 R^2 with R the squared radius. The unit keeps k1 and k2 at 1 or less, so that
+  // nothing overflows.
   const double unit = std::max(std::abs(lens.k1), std::sqrt(std::abs(lens.k2)));
   if (!(unit > 0)) return infinity;
   const double b = 3 * (lens.k1 / unit);
@@ -82,7 +82,7 @@ Result<Eigen::Vector2d> distort(const Lens& lens, const Eigen::Vector2d& undisto
                          1 + squared * (3 * lens.k1 + 5 * squared * lens.k2)};
   };
   const double limit = monotonic_radius(lens);
-  // A polynomial without a fold never falls below 4/9 of the radius: its factor is smallest where 9 k1^2 = 20 k2.
+  // Without a fold, the polynomial is always at least 4/9 of the radius: its factor is smallest where 9 k1^2 = 20 k2.
   const double high = std::isfinite(limit) ? limit : 2.25 * wanted;
   if (excess(high).value < 0) return tl::unexpected(CameraReason::not_monotonic);
   const double radius = increasing_root(excess, 0, high, std::min(wanted, high));

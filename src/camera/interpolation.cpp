@@ -5,10 +5,11 @@
 namespace trk_bridge::camera {
 namespace {
 
-/// A chip of 1 mm, so that an image distance is a multiple of its side; the diagonal is one, too, for it only scales.
+/// A chip of 1 mm, so that image distances are multiples of its side. This also works for the diagonal, which only
+/// scales.
 constexpr wire::CameraConstants unit_chip{0, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1};
 
-/// Blanks and pixels scale and shift the numbers of a lens: what is interpolated without them is the same with them.
+/// Blanks and pixels only scale and shift the numbers of a lens: interpolation gives the same result without them.
 constexpr std::uint32_t without_constants(std::uint32_t format) noexcept {
   return format & ~std::uint32_t{wire::ignore_blank | wire::keep_aspect | wire::shift_in_pixels};
 }
@@ -40,7 +41,7 @@ Lens interpolate(const Lens& a, const Lens& b, double part) noexcept {
 }
 
 Eigen::Matrix3d interpolate(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, double part) noexcept {
-  // The samples themselves keep their very digits.
+  // At the samples, the result is exact.
   if (part == 0) return a;
   if (part == 1) return b;
   return Eigen::Quaterniond(a).slerp(part, Eigen::Quaterniond(b)).normalized().toRotationMatrix();

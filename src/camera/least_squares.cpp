@@ -7,8 +7,8 @@ namespace trk_bridge::camera {
 Unknowns least_squares(const Terms& terms, const Values& wanted) noexcept {
   const Eigen::ColPivHouseholderQR<Terms> qr(terms);
   Values values = wanted;
-  // One reflection after the other, and the unknowns to their places one by one: solve() and householderQ(), which do
-  // the same, take more time to compile than all the rest.
+  // Applies the reflections and the permutation one by one: solve() and householderQ() do the same, but take more time
+  // to compile than all the rest.
   for (Eigen::Index i = 0; i < terms.cols(); ++i) {
     const Eigen::Index below = terms.rows() - i - 1;
     double workspace = 0;

@@ -11,8 +11,8 @@ namespace {
 using wire::CameraConstants;
 using wire::has;
 
-/// Chip sizes in ASCII constants may carry no more than six digits, while one blank line in an image of any size in use
-/// moves the fake chip by more than this.
+/// Chip sizes in ASCII constants may have only six digits. One blank line changes the fake chip by more than this in
+/// images of all usual sizes.
 constexpr double chip_tolerance = 2e-5;
 
 /// The part of the image that shows the chip, in pixels.
@@ -33,13 +33,13 @@ Eigen::Array2d computed_fake_chip(const CameraConstants& c, std::uint32_t format
   return growth * chip_size(c);
 }
 
-/// What the sender gave, or what it must be.
+/// The fake chip from the sender if it is valid, else the computed one.
 Eigen::Array2d fake_chip(const CameraConstants& c, std::uint32_t format) noexcept {
   const Eigen::Array2d sent(c.fake_chip_width, c.fake_chip_height);
   return sent.isFinite().all() && (sent > 0).all() ? sent : computed_fake_chip(c, format);
 }
 
-/// The options that fov depends on; vertical wins over diagonal.
+/// The options that fov depends on; vertical takes precedence over diagonal.
 std::uint32_t fov_options(std::uint32_t format) noexcept {
   if (!has(format, wire::field_of_view)) return 0;
   std::uint32_t options = wire::field_of_view;
@@ -48,7 +48,7 @@ std::uint32_t fov_options(std::uint32_t format) noexcept {
   return options;
 }
 
-/// The options that the centre shift depends on. The fake chip counts only where the shift is in pixels of it.
+/// The options that the centre shift depends on. The fake chip is relevant only if the shift is in its pixels.
 std::uint32_t shift_options(std::uint32_t format) noexcept {
   const std::uint32_t scaled_by_fake_chip = wire::ignore_blank | wire::shift_in_pixels;
   return format & (scaled_by_fake_chip | (has(format, scaled_by_fake_chip) ? wire::keep_aspect : 0U));
@@ -121,8 +121,8 @@ Result<Eigen::Array2d> center_of(const Eigen::Vector2d& shift, const ShiftTerms&
   return center;
 }
 
-/// Whether numbers read under `a` mean the same under `b` although their options agree. Where either cannot be known,
-/// there are no constants by which a receiver could see a difference.
+/// For equal options: whether numbers mean the same with the terms `a` and `b`. If one of these is unknown, there are
+/// no constants, and no receiver can see a difference.
 template <typename Terms>
 bool same_meaning(const Result<Terms>& a, const Result<Terms>& b) noexcept {
   return !a || !b || *a == *b;
@@ -181,7 +181,7 @@ LensParts lens_parts(const wire::CameraParams& params, const CameraConstants* co
 }
 
 Result<Lens> decode_lens(const wire::CameraParams& params, const LensParts& parts) noexcept {
-  // Missing constants are the first reason to give: they may still come, while a wrong number stays wrong.
+  // Missing constants are reported first: they may still arrive, while a wrong number stays wrong.
   if (!parts.fov_terms) return tl::unexpected(parts.fov_terms.error());
   if (!parts.shift_terms) return tl::unexpected(parts.shift_terms.error());
   if (!parts.image_distance) return tl::unexpected(parts.image_distance.error());

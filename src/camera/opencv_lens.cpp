@@ -8,10 +8,10 @@
 namespace trk_bridge::camera {
 namespace {
 
-/// How far out the undistorted image goes, watching that D rises all the way. 0 where it does not.
+/// The undistorted radius that D maps to `reach`; 0 if D does not increase up to there.
 double undistorted_reach(const RadialModel& radial, double reach) noexcept {
   constexpr int steps = 400;
-  constexpr int farthest = 50;  // times the distorted radius; no image formed by D is worth its pixels there
+  constexpr int farthest = 50;  // times the distorted radius; farther out, an image is useless
   for (int i = 1; i <= farthest * steps; ++i) {
     const double radius = reach * i / steps;
     const ValueAndSlope at = radial.distorted(radius);
@@ -41,7 +41,7 @@ PointAndSlope distorted(const OpenCvLens& lens, const Eigen::Vector2d& p) noexce
   return {ratio * p + lens.tangential(p), slope};
 }
 
-/// Whether the lens keeps its orientation all the way from the axis to `p`, which it loses where it folds.
+/// Whether the distortion does not fold between the axis and `p`: it would change its orientation there.
 bool unfolded_up_to(const OpenCvLens& lens, const Eigen::Vector2d& p) noexcept {
   constexpr int steps = 16;
   if (!lens.radial.has_no_pole(p.norm())) return false;
@@ -102,7 +102,7 @@ double LensInverse::undistorted_radius(double distorted) const noexcept {
 
 Result<Eigen::Vector2d> LensInverse::undistorted(const Eigen::Vector2d& wanted) const noexcept {
   constexpr int steps = 20;
-  constexpr double next_to_it = 1e-10;  // of the point: Newton's next step would be below the last digit
+  constexpr double next_to_it = 1e-10;  // relative to the point: the next Newton step would be below the last digit
   const double radius = wanted.norm();
   if (radius == 0) return wanted;
   Eigen::Vector2d p = wanted * (undistorted_radius(std::min(radius, reach_)) / radius);

@@ -13,14 +13,14 @@ namespace {
 
 using wire::has;
 
-/// Cosine of tilt below which pan and roll are one rotation. Moving roll into pan is then wrong by twice this at most.
+/// Cosine of tilt below which pan and roll are treated as one rotation. The error of this is at most twice this number.
 constexpr double gimbal_lock = 1e-10;
 
 struct SinCos {
   double sin, cos;
 };
 
-/// Exact at multiples of 90 degrees, and as good for a thousand turns as for one.
+/// Exact at multiples of 90 degrees, and accurate after any number of turns.
 SinCos sin_cos_of_degrees(double degrees) noexcept {
   int quarter_turns = 0;
   const double rest = std::remquo(degrees, 90.0, &quarter_turns) / degrees_per_radian;
@@ -47,15 +47,15 @@ double degrees_of(double sin, double cos) noexcept {
 Eigen::Vector3d to_y_up(const Eigen::Vector3d& z_up) noexcept { return {z_up.x(), z_up.z(), -z_up.y()}; }
 Eigen::Vector3d from_y_up(const Eigen::Vector3d& y_up) noexcept { return {y_up.x(), -y_up.z(), y_up.y()}; }
 
-/// Takes z-up coordinates to the axes of a format.
+/// Rotates z-up coordinates to the axes of a format.
 Eigen::Matrix3d axes(bool y_up) noexcept {
   Eigen::Matrix3d a = Eigen::Matrix3d::Identity();
   if (y_up) a << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   return a;
 }
 
-/// The rotation next to what is one to 1e-3, by Newton's iteration for the polar decomposition. Each step squares the
-/// error and halves it.
+/// The nearest rotation to a matrix that is a rotation to 1e-3, by Newton's iteration for the polar decomposition. Each
+/// step squares the error and halves it.
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& m) noexcept {
   constexpr int steps_from_1e_3_to_the_last_digit = 3;
   Eigen::Matrix3d rotation = m;
@@ -77,7 +77,7 @@ bool finite(const wire::Euler& e) noexcept {
          std::isfinite(e.tilt) && std::isfinite(e.roll);
 }
 
-/// The options that the numbers of a pose depend on: formats that agree in them write a pose alike.
+/// The options that the numbers of a pose depend on: formats with the same ones write a pose in the same way.
 std::uint32_t pose_options(std::uint32_t format) noexcept {
   const std::uint32_t matrix_options = wire::studio_to_camera | wire::camera_y_up;
   return format & (wire::euler | wire::studio_y_up | (has(format, wire::euler) ? 0U : matrix_options));
@@ -131,7 +131,7 @@ PanTiltRoll pan_tilt_roll(const Eigen::Matrix3d& rotation) noexcept {
     return angles;
   }
   angles.pan = degrees_of(-forward.x(), forward.y());
-  // Roll from what is left without pan: close to gimbal lock pan is noise, and roll must make up for it.
+  // Roll is computed relative to this pan: close to gimbal lock, pan is noise, and roll compensates it.
   const Eigen::Vector3d level_right(forward.y() / cos_tilt, -forward.x() / cos_tilt, 0);
   angles.roll = degrees_of(level_right.dot(rotation.col(2)), level_right.dot(rotation.col(0)));
   return angles;

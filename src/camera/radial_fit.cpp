@@ -14,7 +14,7 @@ constexpr int node_count = 48;
 constexpr int probe_count = 400;
 constexpr int reweightings = 3;
 
-/// What is fitted.
+/// The curve to be fitted.
 struct Curve {
   double a1, a2, reach;
 
@@ -50,8 +50,8 @@ Samples sample(const Curve& curve) noexcept {
   return samples;
 }
 
-/// One fit with `above` and `below` coefficients, every sample weighted by its radius over the denominator of
-/// `weights`.
+/// One fit with `above` coefficients in the numerator and `below` in the denominator. The weight of a sample is its
+/// radius divided by the denominator of `weights`.
 RadialModel fit_weighted(const Samples& samples, int above, int below, const RadialModel& weights) noexcept {
   Terms terms(node_count, above + below);
   Values wanted(node_count);
@@ -76,15 +76,16 @@ RadialModel fit_weighted(const Samples& samples, int above, int below, const Rad
 
 RadialModel fit_polynomial(const Samples& samples) noexcept { return fit_weighted(samples, 3, 0, {}); }
 
-/// Linear in the coefficients once multiplied by the denominator, whose last value undoes the weight that this gives.
+/// After multiplication by the denominator, the problem is linear in the coefficients. The denominator of the previous
+/// fit compensates the weight that this adds.
 RadialModel fit_rational(const Samples& samples, int above, int below) noexcept {
   RadialModel model;
   for (int i = 0; i < reweightings; ++i) model = fit_weighted(samples, above, below, model);
   return model;
 }
 
-/// How far the model should go on without a pole, for points that are just outside of the image: a quarter of the
-/// range, unless the lens itself folds before.
+/// The range that should have no pole, for points just outside of the image: a quarter more than the image, or up to
+/// the fold of the lens.
 double wanted_range(const Curve& curve) noexcept {
   constexpr double quarter_more = 1.25;
   Lens lens;
@@ -94,7 +95,7 @@ double wanted_range(const Curve& curve) noexcept {
   return std::isfinite(fold) ? std::clamp(curve.undistorted(fold), 1.0, quarter_more) : quarter_more;
 }
 
-/// Takes `radial` when it has no pole within `range` and is nearer than `best`; says whether it had none.
+/// Replaces `best` if `radial` has no pole within `range` and a smaller residual. Returns whether it has no pole.
 bool take_if_better(const Curve& curve, const RadialModel& radial, double range, RadialFit& best) noexcept {
   if (!radial.has_no_pole(range)) return false;
   const double residual = residual_of(curve, radial);
@@ -106,7 +107,7 @@ void improve_by_rationals(const Curve& curve, const Samples& samples, double tol
   const RadialModel full = fit_rational(samples, 3, 3);
   const double range = wanted_range(curve);
   if (take_if_better(curve, full, range, best)) return;
-  // Where six coefficients are more than the curve asks for, they spend the rest on a pole next to a zero.
+  // If six coefficients are more than the curve needs, the fit has a pole next to a zero.
   const std::array<RadialModel, 3> lesser = {fit_rational(samples, 3, 2), fit_rational(samples, 2, 3),
                                              fit_rational(samples, 2, 2)};
   for (const RadialModel& radial : lesser) take_if_better(curve, radial, range, best);

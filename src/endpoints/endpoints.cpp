@@ -40,7 +40,7 @@ struct Parsed {
   const Scheme* scheme;
 };
 
-/// What a text without a known scheme was probably meant to be; empty: nothing comes near.
+/// The URL that a text without a known scheme was probably meant to be; empty: none is similar.
 std::string suggestion_for(const std::string& text, const Url& url) {
   if (transport::whole_number(text, 0, 61)) return "shm:" + text;
   if (transport::whole_number(text, 1, 65535)) return "udp://:" + text;
@@ -80,14 +80,14 @@ tl::expected<std::uint32_t, std::string> format_from(std::string words) {
   return *format;
 }
 
-/// Seconds, as ns.
+/// Parses seconds; returns ns.
 std::optional<std::int64_t> nanoseconds_from(std::string_view seconds, std::int64_t most) {
   const auto number = transport::real_number(seconds, 0, static_cast<double>(most) / 1e9);
   if (!number) return std::nullopt;
   return std::llround(*number * 1e9);
 }
 
-/// One number, or three with commas between.
+/// Parses one number, or three separated by commas.
 std::optional<Delay> delay_from(std::string_view text) {
   std::vector<std::int64_t> parts;
   for (bool more = true; more;) {
@@ -103,8 +103,7 @@ std::optional<Delay> delay_from(std::string_view text) {
   return std::nullopt;
 }
 
-/// Adds the preset's options of the scheme, where the URL does not say otherwise. The error is that it is for another
-/// scheme.
+/// Adds the options of the preset that the URL does not have. The error is that the preset is for another scheme.
 tl::expected<void, std::string> apply_preset(const Preset& preset, Url& url) {
   if (preset.scheme.empty()) return {};
   if (preset.scheme != url.scheme) {
@@ -119,7 +118,7 @@ tl::expected<void, std::string> apply_preset(const Preset& preset, Url& url) {
   return {};
 }
 
-/// The error of a value that an option of every sink does not allow.
+/// The error for an invalid value of an option that every sink has.
 tl::unexpected<std::string> not_allowed(std::string_view key, const std::string& value) {
   const auto option = std::find_if(transport::form_options.begin(), transport::form_options.end(),
                                    [key](const auto& known) { return known.key == key; });
@@ -127,7 +126,7 @@ tl::unexpected<std::string> not_allowed(std::string_view key, const std::string&
                              std::string(option->allowed));
 }
 
-/// Takes the options of every sink out of the URL.
+/// Removes the options that every sink has from the URL.
 tl::expected<SinkForm, std::string> extract_form(Url& url) {
   const auto extract = [&url](std::string_view key) -> std::optional<std::string> {
     const auto option =
@@ -141,8 +140,7 @@ tl::expected<SinkForm, std::string> extract_form(Url& url) {
   const auto delay = extract("delay"), lead = extract("lead");
   SinkForm form;
   if (words && preset_name) {
-    return tl::make_unexpected("option preset = \"" + *preset_name +
-                               "\": must not be given with format, which it stands for");
+    return tl::make_unexpected("option preset = \"" + *preset_name + "\": must not be given together with format");
   }
   if (words) {
     const auto format = format_from(*words);

@@ -42,12 +42,12 @@ Read<std::string> name_of(const YAML::Node& key) {
       YamlFault{key.Mark(), "name of a preset '" + name + "': must be lower-case letters, digits and underscores"});
 }
 
-/// Scheme and options, which most have not.
+/// Scheme and options, which most presets do not have.
 Read<void> read_scheme(const YAML::Node& node, Preset& preset) {
   const auto scheme = base::yaml_value(node, "scheme"), options = base::yaml_value(node, "options");
   if (!scheme.node.IsDefined()) {
     if (!options.node.IsDefined()) return {};
-    return tl::unexpected(YamlFault{options.mark, "options: need the scheme that they are of"});
+    return tl::unexpected(YamlFault{options.mark, "options: need a scheme"});
   }
   const auto name = text_of(scheme);
   if (!name) return tl::unexpected(name.error());

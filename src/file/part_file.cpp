@@ -21,7 +21,7 @@ using transport::refused_by_system;
 using transport::SinkFault;
 using transport::SinkReason;
 
-/// Whether `fd` still is what `path` names: another writer may have finished between opening and locking.
+/// Whether `path` still names the file `fd`: another writer may have finished between opening and locking.
 bool is_named(int fd, const std::string& path) {
   struct stat mine {};
   struct stat there {};
@@ -34,7 +34,7 @@ bool is_fifo_there(const std::string& path) {
   return ::stat(path.c_str(), &there) == 0 && S_ISFIFO(there.st_mode);
 }
 
-/// Empties the locked file, or says why not.
+/// Truncates the locked file to zero.
 tl::expected<void, SinkFault> empty(int fd, bool overwrite) {
   struct stat there {};
   if (::fstat(fd, &there) != 0) return refused_by_system(errno);
@@ -44,11 +44,11 @@ tl::expected<void, SinkFault> empty(int fd, bool overwrite) {
   return {};
 }
 
-/// An empty file of that name, locked for as long as it is open.
+/// Creates an empty file of that name, which is locked while it is open.
 tl::expected<Descriptor, SinkFault> create_locked(const std::string& part, const PartFile::Options& options) {
   const int only_new = options.part == Part::refused ? O_EXCL : 0;
   for (;;) {
-    // Of a FIFO that has this name, no reader is waited for.
+    // If the name belongs to a FIFO, do not wait for its reader.
     Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | only_new, 0666));
     if (!file.is_open()) {
       if (errno == ENXIO) return refused(SinkReason::not_a_file);
@@ -63,7 +63,7 @@ tl::expected<Descriptor, SinkFault> create_locked(const std::string& part, const
   }
 }
 
-/// A FIFO that a program reads; writes to it wait.
+/// Opens a FIFO that a program reads; later writes block.
 tl::expected<Descriptor, SinkFault> open_fifo(const std::string& path) {
   Descriptor fifo(::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
   if (!fifo.is_open()) return errno == ENXIO ? refused(SinkReason::no_reader) : refused_by_system(errno);
@@ -71,25 +71,25 @@ tl::expected<Descriptor, SinkFault> open_fifo(const std::string& path) {
   return fifo;
 }
 
-/// 0 or the errno of the refusal.
+/// Renames without replacing. Returns 0 or an errno.
 int rename_new(const std::string& from, const std::string& to) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
-  // Some file systems cannot rename without replacing; all of them that have links refuse to replace with one.
+  // Some file systems cannot rename without replacing; but link() never replaces a file.
   if (::link(from.c_str(), to.c_str()) != 0) return errno;
   return ::unlink(from.c_str()) == 0 ? 0 : errno;
 }
 
-/// A new name is on the disk only when its directory is. 0 or the errno of the refusal.
+/// A new name is on the disk only after its directory is synced. Returns 0 or an errno.
 int sync_directory(const std::string& directory) {
   const Descriptor open(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // A directory may be writable and yet not readable; then there is no way to ask.
+  // A directory may be writable but not readable; then it cannot be synced.
   if (!open.is_open()) return errno == EACCES ? 0 : errno;
   // Not every file system can sync a directory.
   return ::fsync(open.get()) == 0 || errno == EINVAL ? 0 : errno;
 }
 
-/// Up to the end of the last whole line; 0 where there is none.
+/// The size up to the end of the last complete line; 0 if there is none.
 std::int64_t size_of_whole_lines(int fd, std::int64_t size) {
   std::array<char, 4096> chunk{};
   for (std::int64_t end = size; end > 0;) {
@@ -104,7 +104,7 @@ std::int64_t size_of_whole_lines(int fd, std::int64_t size) {
   return 0;
 }
 
-/// What `size` bytes of whole lines are.
+/// The content of a `.part`.
 enum class Content { no_take, without_field, take };
 
 Content content_of(int fd, std::int64_t size) {
@@ -113,7 +113,7 @@ Content content_of(int fd, std::int64_t size) {
   const ssize_t got = ::pread(fd, head.data(), std::min(head.size(), static_cast<std::size_t>(size)), 0);
   const std::string_view text(head.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
   if (text.substr(0, magic.size()) != magic) return Content::no_take;
-  // A field is the fourth line that is no comment, behind magic, time code and constants.
+  // The first field is the fourth line that is not a comment, after magic, time code and constants.
   int lines = 0;
   char before = '\n';
   for (const char c : text) {
@@ -123,7 +123,7 @@ Content content_of(int fd, std::int64_t size) {
   return lines >= 4 ? Content::take : Content::without_field;
 }
 
-/// "take.recovered.trk" of "take.trk", "take.recovered-2.trk", …
+/// "take.recovered.trk" for "take.trk", then "take.recovered-2.trk", …
 std::string recovered_name(const std::string& path, int number) {
   const std::size_t ending = ending_of(path);
   return path.substr(0, ending) + ".recovered" + (number > 1 ? "-" + std::to_string(number) : "") + path.substr(ending);
@@ -137,7 +137,7 @@ std::string directory_of(const std::string& path) {
 }
 
 std::size_t ending_of(const std::string& path) {
-  const std::size_t name = path.rfind('/') + 1;  // 0 where there is none
+  const std::size_t name = path.rfind('/') + 1;  // 0 if there is none
   const std::size_t dot = path.rfind('.');
   return dot == std::string::npos || dot <= name ? path.size() : dot;
 }
@@ -198,7 +198,7 @@ tl::expected<void, int> PartFile::publish(std::optional<std::int64_t> size) noex
 
 void PartFile::discard() noexcept {
   if (!is_open()) return;
-  // Still locked, so that it is no other writer's.
+  // Still locked, so that it cannot belong to another writer.
   if (!is_fifo_) ::unlink(part_.c_str());
   descriptor_.close();
 }
@@ -208,7 +208,7 @@ std::optional<std::string> recover_part(const std::string& path) {
   const Descriptor part(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
   struct stat there {};
   if (!part.is_open() || ::fstat(part.get(), &there) != 0 || !S_ISREG(there.st_mode)) return std::nullopt;
-  // An empty one may be a writer's that has not locked it yet.
+  // An empty one may belong to a writer that has not locked it yet.
   if (there.st_size == 0 || ::flock(part.get(), LOCK_EX | LOCK_NB) != 0 || !is_named(part.get(), path)) {
     return std::nullopt;
   }

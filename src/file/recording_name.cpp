@@ -18,7 +18,7 @@ namespace {
 
 constexpr int highest_number = 9999;
 
-/// A conversion and how many digits it has.
+/// A conversion and its number of digits.
 struct Conversion {
   char letter;
   int digits;
@@ -32,7 +32,7 @@ const Conversion* conversion_of(char letter) {
   return found == conversions.end() ? nullptr : found;
 }
 
-/// For glob: the characters that mean something else get a backslash.
+/// Escapes the special characters of glob.
 std::string escaped(std::string_view text) {
   std::string pattern;
   for (const char c : text) {
@@ -89,7 +89,7 @@ tl::expected<RecordingName, std::string> RecordingName::parse(std::string_view t
       const auto byte = transport::percent_decoded(text.substr(i, 3));
       if (!byte) {
         return tl::unexpected("\"" + std::string(text) +
-                              "\": after % are allowed Y y m d j H M S for the time of the " +
+                              "\": after %, allowed are Y y m d j H M S for the time of the " +
                               "first field, and two hexadecimal digits other than 00 for a byte (a % itself is %25)");
       }
       name.format_ += *byte == "%" ? "%%" : *byte;

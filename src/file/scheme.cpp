@@ -16,15 +16,15 @@ using transport::Option;
 using transport::real_number;
 
 constexpr std::array<Option<SourceSettings>, 6> source_options{{
-    {"rate", "fields a second from 0.001 to 100000", "Rate of the take (50, or the program's own field rate)",
+    {"rate", "fields per second from 0.001 to 100000", "Rate of the take (50, or the field rate of the program)",
      [](const std::string& v, SourceSettings& s) { return assign(real_number(v, 1e-3, 1e5), s.rate); }},
     {"speed", "0 (as fast as possible) and a factor from 0.001 to 1000", "Playback speed (1)",
      [](const std::string& v, SourceSettings& s) {
        return assign(real_number(v, 0.0, 1e3), s.speed) && (s.speed == 0.0 || s.speed >= 1e-3);
      }},
-    {"loop", transport::switch_allowed, "1: play it over and over",
+    {"loop", transport::switch_allowed, "1: play it repeatedly",
      [](const std::string& v, SourceSettings& s) { return assign_switch(v, s.loop); }},
-    {"time", "timecode and now", "What samples are stamped with: the take's own time code, or the present (timecode)",
+    {"time", "timecode and now", "Stamps of samples: the time code of the take, or the current time (timecode)",
      [](const std::string& v, SourceSettings& s) {
        s.time = v == "now" ? FileTime::now : FileTime::timecode;
        return v == "now" || v == "timecode";
@@ -34,19 +34,19 @@ constexpr std::array<Option<SourceSettings>, 6> source_options{{
        s.date = base::day_from_text(v);
        return s.date && *s.date <= latest_date;
      }},
-    {"lenient", transport::switch_allowed, "1: leave out malformed lines, each alone (the first one ends the take)",
+    {"lenient", transport::switch_allowed, "1: skip malformed lines (otherwise the first one ends the take)",
      [](const std::string& v, SourceSettings& s) { return assign_switch(v, s.lenient); }},
 }};
 
 constexpr std::array<Option<SinkSettings>, 4> sink_options{{
-    {"timecode", "HH:MM:SS:FF:D, D being 1 or 2 (drop-frame: HH:MM:SS;FF:D)",
-     "Time code of the first field (its own if it has one, else its time of day, UTC)",
+    {"timecode", "HH:MM:SS:FF:D, with D 1 or 2 (drop-frame: HH:MM:SS;FF:D)",
+     "Time code of the first field (its own one, else its time of day, UTC)",
      [](const std::string& v, SinkSettings& s) {
        const auto code = base::parse_time_code(v);
        if (code) s.time_code = *code;
        return code.has_value();
      }},
-    {"rate", "fields a second from 1 to 200, which the time code counts", "Rate of the default time code (50)",
+    {"rate", "fields per second from 1 to 200", "Rate of the default time code (50)",
      [](const std::string& v, SinkSettings& s) { return assign(real_number(v, 1, 200), s.rate); }},
     {"number", transport::switch_allowed, "1: add the next free number to the name",
      [](const std::string& v, SinkSettings& s) { return assign_switch(v, s.number); }},
@@ -58,7 +58,7 @@ std::vector<transport::OptionHelp> options(Direction direction) {
   return direction == Direction::read ? transport::help_of(source_options) : transport::help_of(sink_options);
 }
 
-/// Without decoding.
+/// Does not decode %XX.
 tl::expected<std::string_view, std::string> path_of(const transport::Url& url) {
   std::string_view place = url.place;
   if (place.substr(0, 2) == "//") {
@@ -71,7 +71,7 @@ tl::expected<std::string_view, std::string> path_of(const transport::Url& url) {
   return place;
 }
 
-/// `read_path` makes of the path what the settings have.
+/// `read_path` converts the path for the settings.
 template <typename Settings, typename ReadPath, typename Table, typename OtherTable>
 tl::expected<Settings, std::string> settings_of(const transport::Url& url, Direction direction,
                                                 const ReadPath& read_path, const Table& own,
@@ -97,14 +97,14 @@ tl::expected<SinkSettings, std::string> sink_settings(const transport::Url& url)
   auto settings = settings_of<SinkSettings>(url, Direction::write, RecordingName::parse, sink_options, source_options);
   if (settings && settings->number && settings->overwrite) {
     return tl::make_unexpected(
-        std::string("option overwrite = \"1\": must not be given with number=1, which finds a ") + "name of its own");
+        std::string("option overwrite = \"1\": must not be given together with number=1, which finds a free name"));
   }
   return settings;
 }
 
 const transport::Scheme scheme{"file",
                                "file:PATH",
-                               "Takes: trk as text, a line a video field",
+                               "Takes: trk as text, one line per video field",
                                options,
                                [](const transport::Url& url) -> tl::expected<transport::SourceEndpoint, std::string> {
                                  auto settings = source_settings(url);

@@ -21,7 +21,7 @@ using transport::SinkReason;
 using transport::TransportError;
 using transport::Written;
 
-/// How often writes try to open what could not be opened.
+/// How often writes try again to open a file that could not be opened.
 constexpr std::chrono::seconds retry_period{1};
 constexpr std::int64_t day = 86'400'000'000'000;  // ns
 
@@ -44,25 +44,25 @@ class FileSink final : public transport::Sink {
   Written put(const wire::CameraConstants& constants) override { return writer_.write(constants); }
   Written finish() override;
 
-  /// Before the first field, which is of this time; every rate that the settings allow has a code for every time of the
-  /// day.
+  /// Called before the first field, whose time this is. Cannot fail: every allowed rate has a code for every time of
+  /// the day.
   void set_time_code(std::int64_t time, const std::optional<base::CountedTimeCode>& of_source = {}) {
     const auto of_day = [&] { return *base::time_code_at(time % day, settings_.rate); };
     writer_.set_time_code(settings_.time_code ? *settings_.time_code : of_source ? of_source->code : of_day());
   }
   Written open(std::int64_t time);
   Written open_when_due(std::int64_t time);
-  /// Publishes what dead writers left, and notes it for a person.
+  /// Publishes unfinished takes of dead writers, and reports them in notice().
   void recover();
 
   const SinkSettings settings_;
   TakeWriter writer_;
   Written opened_;  // the last attempt
   steady_clock::time_point next_attempt_{};
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // protects the following members
   std::string name_;
   std::string notice_;
-  bool waits_ = false;  // for a reader
+  bool waits_ = false;  // waits for a reader
 };
 
 void FileSink::recover() {
@@ -102,7 +102,7 @@ void FileSink::get_ready() {
   if (writer_.is_open()) return;
   const std::int64_t now = base::wall_now();
   if (settings_.path.has_time()) {
-    // The name is that of the first field: what can be known before is whether its directory takes files.
+    // The name depends on the first field: only the directory can be checked before.
     recover();
     const std::string directory = directory_of(settings_.path.at(now));
     opened_ = {};
@@ -115,7 +115,7 @@ void FileSink::get_ready() {
   }
   if (opened_) return;
   if (opened_.error().reason == SinkReason::no_reader) {
-    // It may come later.
+    // The reader may come later.
     const std::lock_guard<std::mutex> lock(mutex_);
     waits_ = true;
     return;

@@ -34,7 +34,7 @@ using transport::Wake;
 constexpr double highest_rate = 1e6;
 constexpr long double century = 3.2e18L;  // ns
 constexpr nanoseconds one_day = std::chrono::hours(24);
-constexpr const char* nothing_to_loop = "loop=1: it has no parameters to play";
+constexpr const char* nothing_to_loop = "loop=1: the take has no parameters to play";
 
 /// Midnight UTC of the day, nanoseconds since 1970.
 std::int64_t midnight(const SourceSettings& settings) {
@@ -43,22 +43,21 @@ std::int64_t midnight(const SourceSettings& settings) {
   return now - now % one_day.count();
 }
 
-/// The time codes of a take; none where its first one does not fit the rate, which the error says where they are
-/// needed.
+/// The time codes of a take. If the first one does not fit the rate: an error if time codes are needed, else none.
 tl::expected<std::optional<base::TimeCodeSeries>, std::string> codes_of(const TakeReader& take, double rate,
                                                                         FileTime time) {
   const auto codes = base::TimeCodeSeries::from(take.time_code(), rate);
   if (codes) return *codes;
   if (time == FileTime::now) return std::nullopt;
-  return tl::unexpected(codes.error() + "; say rate=HZ, or time=now to play without it");
+  return tl::unexpected(codes.error() + "; set rate=HZ, or time=now to play without it");
 }
 
-/// Plays a take at its field rate, line by line as it is read. The schedule is absolute from the first call on, or from
-/// when a FIFO's writer began: a late reader catches up. A field is read before its time, so that a slow disk does not
-/// delay it. Lines that were left out are reported when they are reached, and of a loop in the first round only.
+/// Plays a take at its field rate, line by line. The schedule is absolute from the first call, or from the start of the
+/// writer of a FIFO: a late reader catches up. A field is read before its time, so that a slow disk does not delay it.
+/// Skipped lines are reported when they are reached, and in a loop only in the first round.
 class FileSource final : public transport::CountedSource {
  public:
-  /// Of a regular file the reader has read the head, and `codes` are those of the take.
+  /// For a regular file, the reader has read the head, and `codes` are those of the take.
   FileSource(const SourceSettings& settings, double rate, std::unique_ptr<TakeReader> take,
              std::optional<base::TimeCodeSeries> codes)
       : CountedSource("file " + settings.path),
@@ -85,15 +84,15 @@ class FileSource final : public transport::CountedSource {
   }
 
  private:
-  /// When the next record is to be handed out. Constants come with the first field of a round.
+  /// When the next record must be returned. Constants are returned with the first field of a round.
   Clock::time_point due() const {
-    // Up, so that nothing is ever early; a century is as good as never, and within what the clock can represent.
+    // Rounded up, so that nothing is early. Limited to a century, which the clock can represent.
     const long double ahead =
         std::ceil(static_cast<long double>(played_) * 1e9L / static_cast<long double>(rate_ * speed_));
     return *begin_ + nanoseconds(static_cast<std::int64_t>(std::min(ahead, century)));
   }
 
-  /// `sample` once the next record is due, `idle` when the deadline comes before.
+  /// `sample` when the next record is due, `idle` if the deadline is earlier.
   Event wait_until_due(const Deadline& deadline) {
     auto now = Clock::now();
     if (!begin_) begin_ = now;
@@ -114,7 +113,7 @@ class FileSource final : public transport::CountedSource {
     return Event::sample;
   }
 
-  /// The next record of the take: `sample` once there is one to be handed out.
+  /// Reads the next record of the take: `sample` when there is one.
   Event fetch(Reception& into, const Deadline& deadline) {
     for (;;) {
       switch (take_->next()) {
@@ -124,7 +123,7 @@ class FileSource final : public transport::CountedSource {
           has_next_ = has_field_ = true;
           return Event::sample;
         case TakeReader::Got::skipped:
-          // It was a field as well: the others keep their times.
+          // It was a field, too: the others keep their times.
           ++played_;
           if (!is_first_round_) break;
           return skipped(into);
@@ -157,7 +156,7 @@ class FileSource final : public transport::CountedSource {
     return Event::sample;
   }
 
-  /// Behind the head of a FIFO.
+  /// After the head of a FIFO.
   Event begin() {
     const auto codes = codes_of(*take_, rate_, time_);
     if (!codes) return failed_with(codes.error());
@@ -167,7 +166,7 @@ class FileSource final : public transport::CountedSource {
   }
 
   Event next_round() {
-    // Its writer may have emptied it since: it would be read over and over.
+    // The file may have been emptied meanwhile: it would be read in an endless loop.
     if (!has_field_) return failed_with(take_->path() + ": " + nothing_to_loop);
     if (!take_->rewind()) return failed_with(take_->error());
     has_field_ = is_first_round_ = false;
@@ -213,7 +212,7 @@ class FileSource final : public transport::CountedSource {
       statistics.waiting_for =
           name() + (take_->is_fifo() ? ": a FIFO, nothing written yet" : ": open, nothing played yet");
     }
-    // Written before the state, and not again.
+    // Written once, before the state.
     if (statistics.state == SourceState::failed && !failure_.empty()) statistics.error = failure_;
   }
 
@@ -233,14 +232,14 @@ class FileSource final : public transport::CountedSource {
 
   std::optional<Clock::time_point> begin_;
   bool constants_due_;
-  bool has_next_ = false;   // take_->params() is to be handed out
-  bool has_field_ = false;  // this round
+  bool has_next_ = false;   // take_->params() is the next record
+  bool has_field_ = false;  // in this round
   bool is_first_round_ = true;
   std::uint64_t played_ = 0;       // fields, over all rounds
   std::uint64_t round_begin_ = 0;  // played_ when this round began
 };
 
-/// Whether there is a field to play, however far behind lines that are left out. Throws TransportError.
+/// Whether there is a field to play, even after many skipped lines. Throws TransportError.
 bool has_field(const std::string& path, MalformedLines malformed) {
   TakeReader take(path, malformed, Waiting::never);
   for (;;) {

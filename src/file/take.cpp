@@ -26,7 +26,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// Codes of faults that text has beside those of wire::Reason.
+// Fault codes of text in addition to those of wire::Reason.
 constexpr std::uint8_t has_nul = 200, is_too_long = 201, is_out_of_order = 202;
 
 std::string reason_text(std::uint8_t code, std::int16_t field) {
@@ -37,7 +37,7 @@ std::string reason_text(std::uint8_t code, std::int16_t field) {
       return "a line of " + std::to_string(wire::max_datagram) + " bytes or more: lines are shorter than " +
              std::to_string(wire::max_datagram);
     case is_out_of_order:
-      return "its counter is below the one before";
+      return "its counter is lower than the previous one";
     default:
       wire::Fault fault{static_cast<wire::Reason>(code)};
       fault.about_field = field >= 0;
@@ -59,7 +59,7 @@ std::string refusal(const std::string& path, const std::string& reason) { return
 
 std::string system_text(int error) { return std::system_category().message(error); }
 
-/// Empty when it can be read.
+/// Empty if the kind of file can be read.
 std::string refusal_of_kind(mode_t mode) {
   if (S_ISREG(mode) || S_ISFIFO(mode)) return {};
   if (S_ISDIR(mode)) return system_text(EISDIR);
@@ -72,7 +72,7 @@ std::string refusal_of_kind(mode_t mode) {
 TakeReader::TakeReader(std::string path, MalformedLines malformed, Waiting waiting)
     : path_(std::move(path)), malformed_(malformed), waiting_(waiting), file_(-1) {
   const auto refuse = [this](const std::string& reason) { throw transport::TransportError(refusal(path_, reason)); };
-  // Before it is opened: that alone does something to devices.
+  // Checked before it is opened: opening a device can have side effects.
   struct stat state {};
   if (::stat(path_.c_str(), &state) != 0) refuse(system_text(errno));
   if (const std::string reason = refusal_of_kind(state.st_mode); !reason.empty()) refuse(reason);
@@ -111,7 +111,7 @@ TakeReader::Line TakeReader::fill() {
   }
   for (;;) {
     if (is_fifo_ && waiting_ == Waiting::never) {
-      // Without a writer yet a read would say that this is the end.
+      // While there is no writer, read() would report the end of the file.
       pollfd more{file_.get(), POLLIN, 0};
       if (::poll(&more, 1, 0) == 0) return Line::nothing_yet;
     }
@@ -186,7 +186,7 @@ TakeReader::Got TakeReader::next() {
   }
 }
 
-/// nothing_yet: the head goes on in the next line.
+/// nothing_yet: the head continues in the next line.
 TakeReader::Got TakeReader::take_head(std::string_view content) {
   if (content.find('\0') != std::string_view::npos) return fail(reason_text(has_nul, -1));
   if (stage_ == Stage::magic) {
@@ -246,7 +246,7 @@ TakeReader::Got TakeReader::finish() {
                                                            : nullptr;
   if (missing != nullptr) {
     ++number_;
-    return fail(std::string("the file ends where ") + missing + " should stand");
+    return fail(std::string("the file ends before ") + missing);
   }
   stage_ = Stage::ended;
   return Got::end;

@@ -40,7 +40,7 @@ Written TakeWriter::open(PartFile file) {
   file_ = std::move(file);
   size_ = 0;
   has_fields_ = false;
-  // Written now, so that a disk without room is known before the first field.
+  // Written now, so that a full disk is detected before the first field.
   auto begun = append("DMC01\n");
   if (!begun) file_.discard();
   return begun;
@@ -106,7 +106,7 @@ Written TakeWriter::close() {
   ended_ = true;
   if (!is_open()) return {};
   const auto closed = finish();
-  // What was not published stays as the `.part`.
+  // If it was not published, the `.part` remains.
   file_ = {};
   return closed;
 }
@@ -121,7 +121,7 @@ Written TakeWriter::finish() {
     if (!before) return tl::unexpected(before.error());
     if (auto written = append(*before); !written) return written;
   }
-  // A write that failed half-way has left its beginning behind the last whole line.
+  // Truncates after the last complete line, because a failed write may have left part of a line.
   if (const auto published = file_.publish(size_); !published) return refused_by_system(published.error());
   return {};
 }

@@ -40,7 +40,7 @@ transport::Decoder::Next Decoder::next(transport::Sample& into, transport::Fault
   params.id = m.camera;
   params.counter = messages_[m.camera]++;
   params.format = wire::euler;
-  // Minus as whole numbers: there is no -0.
+  // Negated as integers, so that there is no -0.
   params.euler = {m.x / per_metre,     m.y / per_metre,     m.z / per_metre,
                   -m.pan / per_degree, m.tilt / per_degree, m.roll / per_degree};
   std::optional<camera::Lens> lens;

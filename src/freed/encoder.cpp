@@ -10,17 +10,17 @@ namespace {
 
 using transport::Fault;
 
-/// Of 24 bits.
+/// Counts of a full turn.
 constexpr double turn = 360 * per_degree;
 
 bool fits(double number) noexcept { return number >= least && number <= most; }
 
-/// The same angle between -180 and 180 degrees where the message does not reach as far.
+/// The angle, wrapped to -180..180 degrees if it does not fit into the message.
 double within_reach(double degrees) noexcept {
   return fits(std::round(degrees * per_degree)) ? degrees : std::remainder(degrees, 360.0);
 }
 
-/// The same angle, as near to `before` as the message reaches.
+/// The same angle, as close to `before` as possible within the range of the message.
 std::int32_t unwrapped(std::int32_t pan, std::int32_t before) noexcept {
   double best = pan;
   for (const double other : {pan - turn, pan + turn}) {

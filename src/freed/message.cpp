@@ -10,7 +10,7 @@ using transport::Fault;
 constexpr std::uint8_t position_type = 0xD1;
 constexpr std::uint8_t first_type = 0xD0, last_type = 0xDB;
 
-// Where the numbers begin; each has three bytes but for the spare ones, which are two.
+// Offsets of the numbers. Each has three bytes, except the camera with one and the spare bytes with two.
 constexpr std::size_t camera_at = 1, pan_at = 2, tilt_at = 5, roll_at = 8, x_at = 11, y_at = 14, z_at = 17,
                       zoom_at = 20, focus_at = 23, spare_at = 26, checksum_at = 28;
 static_assert(checksum_at + 1 == message_size);
@@ -79,31 +79,29 @@ Fault other_message(std::uint8_t type) noexcept {
   if (type < first_type || type > last_type) {
     return {"not Free-D",
             [](const Fault& fault) {
-              return "begins with " + hexadecimal(fault.code()) + ", and a Free-D message D1 with D1";
+              return "begins with " + hexadecimal(fault.code()) + " and not with D1, as a Free-D message D1 does";
             },
             type, -1};
   }
   return {"other Free-D message",
           [](const Fault& fault) {
-            return "Free-D message " + hexadecimal(fault.code()) + ", which has no camera position: passed over";
+            return "Free-D message " + hexadecimal(fault.code()) + ", which has no camera position: ignored";
           },
           type, -1};
 }
 
 Fault wrong_checksum() noexcept {
   return {"wrong checksum",
-          [](const Fault&) {
-            return std::string("the checksum does not fit (checksum=lenient takes such messages nevertheless)");
-          },
-          0, -1};
+          [](const Fault&) { return std::string("the checksum is wrong (checksum=lenient accepts such messages)"); }, 0,
+          -1};
 }
 
 Fault no_camera_number() noexcept {
   return {"no camera number",
           [](const Fault&) {
             return std::string(
-                "Free-D needs a camera number from 1 to 255: the record's id is another one, or not "
-                "given; id=N of the sink gives it one");
+                "Free-D needs a camera number from 1 to 255: the id of the record is out of this range or not "
+                "given; set id=N for the sink");
           },
           0, -1};
 }
@@ -115,7 +113,7 @@ Fault out_of_range(Field field) noexcept {
 Fault beyond_lens_table() noexcept {
   return {
       "beyond the lens table",
-      [](const Fault&) { return std::string("the focal length or the focus distance lies outside of the lens table"); },
+      [](const Fault&) { return std::string("the focal length or the focus distance is outside of the lens table"); },
       0, -1};
 }
 

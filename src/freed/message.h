@@ -29,7 +29,7 @@ struct Message {
 inline constexpr double per_degree = 32768;
 inline constexpr double per_metre = 64000;
 inline constexpr std::int32_t least = -0x800000;      ///< of signed 24 bits
-inline constexpr std::int32_t most = 0x7FFFFF;        ///< likewise
+inline constexpr std::int32_t most = 0x7FFFFF;        ///< of signed 24 bits
 inline constexpr std::int32_t most_count = 0xFFFFFF;  ///< of unsigned 24 bits
 
 /// Numbers of a message, for faults.

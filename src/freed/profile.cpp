@@ -17,7 +17,7 @@ constexpr std::array<std::pair<std::string_view, Profile>, 5> words{{{"generic",
 constexpr std::uint16_t iris_bits = 0x0FFF;
 constexpr unsigned frame_shift = 12;
 
-// Of zcam.
+// Units of the profile zcam.
 constexpr double focal_lengths_per_mm = 100;
 constexpr double focus_distances_per_metre = 10000;
 constexpr double irises_per_stop = 100;

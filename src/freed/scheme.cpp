@@ -14,8 +14,8 @@ using transport::Option;
 
 constexpr std::string_view no_table = "none";
 
-constexpr std::string_view profile_help = "What zoom, focus and spare mean";
-constexpr std::string_view lens_help = "Lens table: makes a lens of the counts of encoders, and back";
+constexpr std::string_view profile_help = "Meaning of zoom, focus and the spare bytes (generic)";
+constexpr std::string_view lens_help = "Lens table: converts encoder counts to a lens, and back";
 
 template <typename Settings>
 bool assign_profile(const std::string& value, Settings& settings) {
@@ -100,9 +100,9 @@ tl::expected<SinkSettings, std::string> sink_settings(const transport::Url& url)
   if (!set) return tl::make_unexpected(set.error());
   settings.constants_period = 0;
   if (settings.lens.empty() && !sends_lens(settings.profile)) {
-    return tl::make_unexpected(
-        std::string("option lens is missing: zoom and focus of this profile are counts of encoders, which a lens table "
-                    "gives (lens=FILE.yaml); lens=none sends 0 for both"));
+    return tl::make_unexpected(std::string(
+        "option lens is missing: zoom and focus of this profile are encoder counts, which need a lens table "
+        "(lens=FILE.yaml); lens=none sends 0 for both"));
   }
   return with_table(std::move(settings));
 }

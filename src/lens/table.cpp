@@ -20,8 +20,8 @@ using base::YamlValue;
 template <typename T>
 using Read = base::YamlRead<T>;
 
-constexpr double play = 0.01;        // of the range, at either end
-constexpr double count_step = 0.25;  // of the way back
+constexpr double play = 0.01;        // of the range, at each end
+constexpr double count_step = 0.25;  // for the inverse
 
 tl::unexpected<YamlFault> fault(const YAML::Mark& mark, std::string what) {
   return tl::unexpected(YamlFault{mark, std::move(what)});
@@ -85,7 +85,7 @@ Read<wire::CameraConstants> constants_of(const YamlValue& value) {
   return camera::constants_for(constants, wire::euler);
 }
 
-/// Of a focal length, or of an angle of view over the chip's width.
+/// From a focal length, or from an angle of view over the chip width.
 Read<double> image_distance_of(const YAML::Node& row, const std::optional<wire::CameraConstants>& constants) {
   const auto angle = base::yaml_value(row, "field_of_view");
   const bool has_focal_length = base::yaml_value(row, "focal_length").node.IsDefined();
@@ -98,7 +98,7 @@ Read<double> image_distance_of(const YAML::Node& row, const std::optional<wire::
   if (!(*degrees > 0 && *degrees < 180)) {
     return fault(angle.mark, "field_of_view: must be more than 0 and less than 180 degrees, is " + text_of(*degrees));
   }
-  if (!constants) return fault(angle.mark, "field_of_view: needs constants, which have the chip's width");
+  if (!constants) return fault(angle.mark, "field_of_view: needs constants with the chip width");
   return constants->chip_width / 2 / std::tan(*degrees * M_PI / 360);
 }
 
@@ -131,7 +131,7 @@ Read<Point> point_of(const YAML::Node& row, const std::optional<wire::CameraCons
   return point;
 }
 
-/// Whether `to` goes on from `from` in the direction of `sign`, which is 0 at first.
+/// Whether the step from `from` to `to` has the direction `sign`, which the first step sets.
 bool is_monotonic_step(double from, double to, int& sign) {
   const int step = to > from ? 1 : to < from ? -1 : 0;
   if (sign == 0) sign = step;
@@ -143,7 +143,7 @@ Read<std::vector<Point>> points_of(const YamlValue& rows, const std::optional<wi
   const bool has_focus = rows.node[0].IsMap() && base::yaml_value(rows.node[0], "focus").node.IsDefined();
   std::vector<Point> points;
   int sign = 0;
-  std::size_t zooms = 0;  // of the first focus
+  std::size_t zooms = 0;  // number of zooms of the first focus
   for (const auto& row : rows.node) {
     const auto point = point_of(row, constants, has_focus);
     if (!point) return tl::unexpected(point.error());
@@ -234,15 +234,15 @@ Read<Points> table_of(const YAML::Node& root) {
   return table;
 }
 
-/// The slope at a knot between two intervals of lengths h and secant slopes d: their weighted harmonic mean, 0 where
-/// the values turn.
+/// The slope at a knot between two intervals of lengths h and secant slopes d: their weighted harmonic mean, or 0 at an
+/// extremum.
 double slope_between(double h0, double h1, double d0, double d1) {
   if (!(d0 * d1 > 0)) return 0;
   const double w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
   return (w0 + w1) / (w0 / d0 + w1 / d1);
 }
 
-/// At an end, of the parabola through three knots, held back so that the values do not turn.
+/// The slope at an end: that of the parabola through three knots, limited so that there is no extremum.
 double slope_at_end(double h0, double h1, double d0, double d1) {
   const double slope = ((2 * h0 + h1) * d0 - h0 * d1) / (h0 + h1);
   if (!(slope * d0 > 0)) return 0;
@@ -250,14 +250,14 @@ double slope_at_end(double h0, double h1, double d0, double d1) {
   return slope;
 }
 
-/// `at` within the range, which is extended by some play; none beyond.
+/// Clamps `at` to the range; none if it is outside by more than the play.
 std::optional<double> clamped(double at, double first, double last) noexcept {
   const double beyond = play * (last - first);
   if (!(at >= first - beyond && at <= last + beyond)) return std::nullopt;
   return std::clamp(at, first, last);
 }
 
-/// Which interval of ascending numbers `at` lies in.
+/// The interval of ascending numbers that contains `at`.
 template <typename List, typename Key>
 std::size_t interval_of(const List& list, double at, const Key& key) noexcept {
   std::size_t low = 0, high = list.size() - 1;
@@ -389,7 +389,7 @@ std::optional<Position> Table::position_of(const camera::Lens& lens) const noexc
       at.focus = *focus;
     }
   } else if (focuses_.size() > 1) {
-    // Distances are not known: the last one stands for all.
+    // Distances are unknown: the last focus is used.
     at.focus = focuses_.back();
   }
   const auto image_distance = [&](double zoom) { return values_at({zoom, at.focus})[0]; };

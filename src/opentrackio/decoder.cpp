@@ -38,7 +38,7 @@ bool PacketDecoder::is_copy(std::string_view datagram) noexcept {
   return false;
 }
 
-/// The sample that the packet ends, if it ends one.
+/// The sample that is complete with this packet, if any.
 std::optional<std::string_view> PacketDecoder::assembled(const Packet& packet,
                                                          const transport::Sender& sender) noexcept {
   Assembly* assembly = assemblies_.find(sender);

@@ -19,7 +19,7 @@ std::string uuid(std::uint64_t high, std::uint64_t low) {
 PacketEncoder::PacketEncoder(const WriterSettings& settings, Encoding encoding, const std::string& source_id)
     : writer_(settings), encoding_(encoding) {
   names_.source_id = source_id;
-  // Samples of this run have ids of their own.
+  // A random start, so that sample ids differ between runs.
   samples_ = std::uint64_t{std::random_device{}()} << 32U;
 }
 

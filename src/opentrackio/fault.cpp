@@ -63,13 +63,13 @@ std::string text_of(Reason reason, int member) {
     case Reason::wrong_checksum:
       return "wrong checksum";
     case Reason::lost_segment:
-      return "a sample lacks a segment and is discarded whole";
+      return "a segment is missing: the complete sample is discarded";
     case Reason::too_long:
       return "a sample of more than " + std::to_string(most_bytes) + " bytes";
     case Reason::not_json:
-      return "the sample is not JSON, which its header says it is";
+      return "the header says JSON, but the sample is not JSON";
     case Reason::not_cbor:
-      return "the sample is not CBOR, which its header says it is";
+      return "the header says CBOR, but the sample is not CBOR";
     case Reason::too_deep:
       return "the sample is nested deeper than " + std::to_string(most_depth) + " levels";
     case Reason::wrong_type:
@@ -79,19 +79,21 @@ std::string text_of(Reason reason, int member) {
     case Reason::missing:
       return path + " is missing";
     case Reason::source_number:
-      return "sourceNumber is missing or not 1 to 200: by rule such samples are discarded (source=any takes them)";
+      return "sourceNumber is missing or not 1 to 200: the standard requires to discard such samples (source=any "
+             "accepts them)";
     case Reason::nothing_in_it:
-      return "neither transforms nor static.camera with the sensor's size and resolution";
+      return "neither transforms nor static.camera with size and resolution of the sensor";
     case Reason::unknown_model:
       return "lens.distortion.model is neither \"Brown-Conrady D-U\" nor \"Brown-Conrady U-D\", or has more terms than "
              "they have: the lens is left out";
     case Reason::sensor_needed:
-      return "lens.distortion has to be fitted to k1 and k2, and static.camera has not said the sensor's size and "
+      return "lens.distortion must be fitted to k1 and k2, and static.camera has not given the size of the sensor and "
+             "its "
              "resolution: the lens is left out";
     case Reason::no_fit:
-      return "lens.distortion folds within the image, or no k1 and k2 come near it: the lens is left out";
+      return "lens.distortion folds within the image, or cannot be approximated by k1 and k2: the lens is ignored";
     case Reason::no_source_number:
-      return "the id is not 1 to 200 and so no source number: give one with source=N";
+      return "the id is not a source number from 1 to 200: set source=N";
   }
   return "?";
 }

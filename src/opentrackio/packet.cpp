@@ -25,7 +25,7 @@ void put16(PacketBuffer& into, std::size_t at, std::uint32_t value) noexcept {
   into[at + 1] = static_cast<char>(value);
 }
 
-/// Fletcher-16, but modulo 256; sums of more bits than are kept are the same modulo 256.
+/// Fletcher-16, but modulo 256. Sums in more bits give the same result modulo 256.
 std::uint16_t checksum(std::string_view header, std::string_view payload) noexcept {
   std::uint32_t sum1 = 0, sum2 = 0;
   const auto add = [&](std::string_view bytes) {
@@ -82,7 +82,7 @@ std::optional<std::string_view> Assembly::add(const Packet& packet, std::optiona
   const bool follows =
       is_open_ && packet.sequence == next_ && packet.offset == bytes_.size() && packet.encoding == encoding_;
   if (!follows) {
-    // Said once for a sample, whichever of its segments is missing.
+    // Reported once per sample.
     const bool is_rest = !is_open_ && is_skipping_;
     if (std::exchange(is_open_, false) || (!is_first && !is_rest)) lost = Reason::lost_segment;
     bytes_.clear();

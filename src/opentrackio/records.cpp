@@ -11,24 +11,24 @@ namespace trk_bridge::opentrackio {
 namespace {
 
 constexpr std::int64_t second = 1'000'000'000;
-// A faulty sender may make up any number of ids.
+// A faulty sender may send any number of ids.
 constexpr std::size_t most_cameras = 1024;
 
-/// What is remembered of an id. Of too many ids all is forgotten: constants come again.
+/// The stored data of an id. If there are too many ids, all data is dropped: constants are repeated.
 template <typename Map>
 auto& bounded(Map& all, std::uint32_t id) {
   if (all.size() >= most_cameras && all.count(id) == 0) all.clear();
   return all[id];
 }
 
-// y of the sensor points down, and what is +0 stays so.
+// Changes the sign because y of the sensor points down; +0 remains +0.
 double negated(double value) noexcept { return 0.0 - value; }
 
 bool is_polynomial(const std::array<double, 6>& radial) noexcept {
   return radial[1] == 0 && radial[3] == 0 && radial[4] == 0 && radial[5] == 0;
 }
 
-/// With k1 and k2 where they can be read off.
+/// Includes k1 and k2 if the model is the polynomial of trk.
 camera::Lens lens_of(const Sample& sample) noexcept {
   camera::Lens lens;
   lens.image_distance = sample.number(Id::focal_length);
@@ -45,7 +45,7 @@ camera::Lens lens_of(const Sample& sample) noexcept {
   return lens;
 }
 
-/// Parameters that the standard members are.
+/// Parameters from the standard members.
 wire::CameraParams params_of(const Sample& sample, const camera::Lens& lens) noexcept {
   wire::CameraParams params;
   params.id = static_cast<std::uint32_t>(sample.number(Id::source_number));
@@ -70,7 +70,7 @@ wire::CameraParams params_of(const Sample& sample, const camera::Lens& lens) noe
   return params;
 }
 
-/// Likewise; sensor and resolution are there.
+/// Constants from the standard members; sensor and resolution must be present.
 wire::CameraConstants constants_of(const Sample& sample) noexcept {
   wire::CameraConstants constants;
   constants.id = static_cast<std::uint32_t>(sample.number(Id::source_number));
@@ -88,7 +88,7 @@ bool has_resolution(const Sample& sample) noexcept {
   return sample.has_member(Id::resolution_width) && sample.has_member(Id::resolution_height);
 }
 
-/// Fields of `custom` take the place of what was there.
+/// Replaces fields by those of `custom`.
 template <typename Record, typename Into>
 void take_custom(const Sample& sample, Into& into) noexcept {
   std::size_t at = first_field<Record>();
@@ -104,7 +104,7 @@ void take_custom(const Sample& sample, Into& into) noexcept {
       into);
 }
 
-/// Unlike ==, tells 0 from -0.
+/// Unlike ==, distinguishes 0 from -0.
 template <typename Number>
 bool same_bits(Number a, Number b) noexcept {
   if constexpr (std::is_floating_point_v<Number>) {
@@ -114,7 +114,7 @@ bool same_bits(Number a, Number b) noexcept {
   }
 }
 
-/// Fields that a reader of the rest would not come to.
+/// Sets the fields in `custom` that a reader of the standard members would not get.
 template <typename Record, typename From>
 void set_custom(const From& read, const From& meant, Sample& sample) noexcept {
   std::size_t at = first_field<Record>();
@@ -131,7 +131,7 @@ void set_custom(const From& read, const From& meant, Sample& sample) noexcept {
 }
 
 bool has_custom_lens(const Sample& sample) noexcept {
-  // Whoever wrote an own k1 or k2 wrote each of them that differs; fov alone is a lens where nothing else is one.
+  // A writer of custom k1 or k2 writes each one that differs; fov is a lens even without other members.
   std::size_t at = first_field<wire::CameraParams>();
   bool has = false;
   const wire::CameraParams params{};
@@ -148,13 +148,13 @@ bool has_custom_lens(const Sample& sample) noexcept {
 std::optional<std::int64_t> time_of(const Sample& sample, int tai_offset) noexcept {
   if (!sample.has_member(Id::timestamp_seconds)) return std::nullopt;
   const auto whole = static_cast<std::int64_t>(sample.number(Id::timestamp_seconds)) - tai_offset;
-  // Beyond that nanoseconds do not go.
+  // Nanoseconds would overflow beyond this.
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / second - 10;
   if (whole < 0 || whole > most) return std::nullopt;
   return whole * second + static_cast<std::int64_t>(sample.number(Id::timestamp_nanoseconds));
 }
 
-/// trk counts two fields a frame at rates above 30 Hz, and frames up to there.
+/// trk counts two fields per frame at rates above 30 Hz, and frames up to this rate.
 constexpr double highest_frame_rate = 30.5;
 
 std::optional<base::CountedTimeCode> time_code_of(const Sample& sample) noexcept {
@@ -205,8 +205,8 @@ void set_time_code(const base::CountedTimeCode& counted, Sample& sample) noexcep
   sample.set(Id::frame_rate_denom, ratio.denom);
 }
 
-/// OpenCV's coefficients, of radii in units of the image distance, are those of OpenLensIO, of radii in mm, each times
-/// a power of the image distance F. `radial` has numerator and denominator in turns.
+/// OpenCV's coefficients are for radii in units of the image distance F, those of OpenLensIO for radii in mm: they
+/// differ by a power of F. In `radial`, coefficients of numerator and denominator alternate.
 struct Place {
   std::size_t radial, opencv;
   int power;  // of F
@@ -248,7 +248,7 @@ tl::expected<camera::Lens, Reason> RecordsReader::distorted(const Sample& sample
   const bool is_none = std::all_of(sample.radial.begin(), sample.radial.end(), [](double k) { return k == 0; });
   if (is_exact || is_none) return lens;
   if (!source.constants) return tl::unexpected(Reason::sensor_needed);
-  // The radii are mm on the sensor: the image distance has no say.
+  // The radii are mm on the sensor: the fit does not depend on the image distance.
   if (!source.fitted || source.radial != sample.radial || source.model != sample.model ||
       source.center_shift != lens.center_shift) {
     source.radial = sample.radial;

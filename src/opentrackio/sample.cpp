@@ -17,7 +17,7 @@ using transport::Fault;
 
 enum class Kind : std::uint8_t {
   object,
-  objects,  // a list; the member behind it stands for each of its elements
+  objects,  // a list; the next member describes each of its elements
   values,   // a list of numbers
   number,
   whole,
@@ -29,7 +29,7 @@ struct Member {
   Id parent{};
   std::string_view name;
   Kind kind{};
-  double least = 0, most = 0;  // of numbers and whole ones
+  double least = 0, most = 0;  // for numbers and whole numbers
 };
 
 constexpr double any = std::numeric_limits<double>::max();
@@ -129,7 +129,7 @@ constexpr std::array<Member, member_count> all_members() noexcept {
 
 constexpr std::array<Member, member_count> members = all_members();
 constexpr std::size_t none = member_count;
-// It is in a Sample as it is.
+// The counter is stored in Sample::counter.
 constexpr std::size_t counter_field = [] {
   std::size_t at = static_cast<std::size_t>(Id::fields), found = 0;
   const wire::CameraParams params{};
@@ -153,7 +153,7 @@ std::size_t child_of(std::size_t parent, std::string_view name) noexcept {
 
 constexpr std::string_view d_u = "Brown-Conrady D-U", u_d = "Brown-Conrady U-D";
 
-/// What the parser of either encoding tells.
+/// Receives the events of the parser, for both encodings.
 class Reader {
  public:
   Reader(Encoding encoding, Sample& into) : encoding_(encoding), into_(into) {}
@@ -205,13 +205,13 @@ class Reader {
   struct Frame {
     std::size_t member = 0;
     bool is_ignored = false;
-    std::size_t count = 0;  // of elements so far
+    std::size_t count = 0;  // elements so far
   };
 
   Frame& frame() noexcept { return frames_[depth_ - 1]; }
   Kind kind() const noexcept { return members[member_].kind; }
 
-  /// Finds out which member the value that begins is, and whether it says nothing.
+  /// Determines the member of the value that begins, and whether it is ignored.
   bool is_ignored() noexcept {
     if (depth_ == 0) {
       member_ = index(Id::root);
@@ -247,7 +247,7 @@ class Reader {
     return true;
   }
 
-  /// Those before are no longer the last.
+  /// Multiplies the previous transform into `base`.
   void begin_transform() {
     if (into_.transforms++ > 0) into_.base = into_.base * pose_of(into_);
     for (std::size_t i = index(Id::translation); i <= index(Id::scale_z); ++i) {
@@ -277,7 +277,7 @@ class Reader {
       into_.is_tangential = into_.is_tangential || value != 0;
     } else if (member_ == index(Id::radial)) {
       if (at < into_.radial.size()) into_.radial[at] = value;
-      // A model of more terms is not one of the two.
+      // A model with more terms is neither of the two known ones.
       if (at >= into_.radial.size() && value != 0) into_.model = Model::other;
     } else {
       if (at >= into_.matrix.size()) return refuse(Reason::out_of_range);
@@ -292,12 +292,12 @@ class Reader {
   std::optional<Fault> fault_;
   std::array<Frame, most_depth> frames_{};
   std::size_t depth_ = 0;
-  std::size_t member_ = none;  // that the next value is of
+  std::size_t member_ = none;  // of the next value
 };
 
 using Json = nlohmann::ordered_json;
 
-/// Where a member is, objects and lists around it made.
+/// The position of a member; creates the objects and lists around it.
 Json& place_of(Json& document, std::size_t member) {
   if (member == index(Id::root)) return document;
   Json& parent = place_of(document, index(members[member].parent));

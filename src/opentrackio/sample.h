@@ -138,7 +138,7 @@ struct Sample {
 };
 
 /// Reads a complete sample. A member of the wrong type or out of range, and text that is not in the given encoding, are
-/// faults; then `into` is undefined. Only the library allocates, for long names.
+/// faults; then `into` is unspecified. Only the library allocates, for long names.
 [[nodiscard]] std::optional<transport::Fault> read(std::string_view text, Encoding encoding, Sample& into) noexcept;
 
 /// Names that are written with a sample.

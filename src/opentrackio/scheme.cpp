@@ -17,14 +17,14 @@ using transport::Direction;
 using transport::Option;
 using transport::Url;
 
-// SMPTE's of 1.0.1, and of 1.0.0.
+// The groups of OpenTrackIO 1.0.1 and 1.0.0.
 constexpr std::array<std::string_view, 2> groups{"239.135.1.", "235.135.1."};
 
 std::string group_of(std::string_view group, std::uint32_t source) {
   return std::string(group) + std::to_string(source);
 }
 
-/// Of a host that is one of the groups; 0: it is none.
+/// The source number if the host is one of the groups; else 0.
 std::uint32_t source_of(std::string_view host) {
   for (const std::string_view group : groups) {
     if (host.substr(0, group.size()) != group) continue;
@@ -74,18 +74,18 @@ bool assign_uuid(const std::string& value, std::string& to) {
 
 constexpr std::array<Option<SourceSettings>, 2> source_options{{
     {"source", "a source number from 1 to 200, and any",
-     "Join the groups of this source, in place of a host; any: accept samples without a valid source number",
+     "Join the groups of this source, instead of a host; any: accept samples without a valid source number",
      [](const std::string& v, SourceSettings& s) {
        s.takes_any = v == "any";
        return s.takes_any || assign_source(v, s.source);
      }},
-    {"tai_offset", offset_allowed, "TAI less UTC, of the sender's clock (37)",
+    {"tai_offset", offset_allowed, "TAI minus UTC of the clock of the sender, in seconds (37)",
      [](const std::string& v, SourceSettings& s) { return assign_offset(v, s.tai_offset); }},
 }};
 
 constexpr std::array<Option<SinkSettings>, 7> sink_options{{
     {"source", "a source number from 1 to 200",
-     "Source number in the packets; its group is sent to where the URL has no host",
+     "Source number in the packets; without a host in the URL, the group of this number is the receiver",
      [](const std::string& v, SinkSettings& s) { return assign_source(v, s.writer.source); }},
     {"encoding", "json and cbor", "Encoding of the samples (json)",
      [](const std::string& v, SinkSettings& s) { return assign_word(v, encodings, s.encoding); }},
@@ -93,14 +93,14 @@ constexpr std::array<Option<SinkSettings>, 7> sink_options{{
      [](const std::string& v, SinkSettings& s) { return assign_word(v, profiles, s.writer.profile); }},
     {"distortion", "D-U and U-D", "Lens model: distorted to undistorted, or the other way",
      [](const std::string& v, SinkSettings& s) { return assign_word(v, models, s.writer.model); }},
-    {"rate", "samples a second from 1 to 1000", "Sample rate that is sent along",
+    {"rate", "samples a second from 1 to 1000", "Sample rate to be written in the samples",
      [](const std::string& v, SinkSettings& s) {
        return transport::assign(transport::real_number(v, 1, 1000), s.writer.rate);
      }},
-    {"tai_offset", offset_allowed, "TAI less UTC, of the times that are sent (37)",
+    {"tai_offset", offset_allowed, "TAI minus UTC of the times that are sent, in seconds (37)",
      [](const std::string& v, SinkSettings& s) { return assign_offset(v, s.writer.tai_offset); }},
-    {"source_id", "UUIDs of lower-case digits, as in 5e1f0a6c-0000-8000-8000-000000000001",
-     "Identity of the source (made from this machine's name and the target)",
+    {"source_id", "UUIDs with lower-case digits, as in 5e1f0a6c-0000-8000-8000-000000000001",
+     "Identity of the source (made from the name of this machine and the target)",
      [](const std::string& v, SinkSettings& s) { return assign_uuid(v, s.source_id); }},
 }};
 
@@ -112,7 +112,7 @@ std::vector<transport::OptionHelp> options(Direction direction) {
 
 bool has_no_host(const Url& url) { return url.place == "//" || url.place.compare(0, 3, "//:") == 0; }
 
-/// The same after every start, for receivers that take another one for another camera.
+/// The same after every start, because receivers treat another id as another camera.
 std::string source_id_of(const SinkSettings& settings) {
   char host[256] = "";
   (void)::gethostname(host, sizeof host - 1);
@@ -163,24 +163,24 @@ tl::expected<SourceSettings, std::string> source_settings(const Url& url) {
   if (!set) return tl::make_unexpected(set.error());
   if (settings.source != 0 && !settings.host.empty()) {
     return tl::make_unexpected("option source = \"" + std::to_string(settings.source) +
-                               "\": it names the groups to join, and host \"" + settings.host +
-                               "\" is given: leave one of them out");
+                               "\": it selects the groups to join, but host \"" + settings.host +
+                               "\" is given: remove one of them");
   }
   if (settings.source == 0) settings.source = source_of(settings.host);
   if (settings.source != 0 && settings.port == 0) {
-    return tl::make_unexpected("port = 0: two groups need a port that is given");
+    return tl::make_unexpected("port = 0: with two groups, the port must be given");
   }
   return settings;
 }
 
 tl::expected<SinkSettings, std::string> sink_settings(const Url& url) {
   SinkSettings settings;
-  // As often as receivers may expect.
+  // The period that receivers may expect.
   settings.constants_period = 2.0;
   const auto source =
       std::find_if(url.options.begin(), url.options.end(), [](const auto& option) { return option.key == "source"; });
   Url with_host = url;
-  // An option that is no source number is refused below, with all others.
+  // An invalid source number is refused below, with all other options.
   if (has_no_host(url) && source != url.options.end()) {
     with_host.place = "//" + group_of(groups.front(), 1) + url.place.substr(2);
   }

@@ -15,7 +15,7 @@ struct Ticks {
   double from, to, step;
 };
 
-/// About five round numbers a panel.
+/// About five round numbers per panel.
 Ticks ticks(double from, double to) {
   const double raw = (to - from) / 5;
   const double power = std::pow(10, std::floor(std::log10(raw)));
@@ -37,7 +37,7 @@ std::string escaped(const std::string& text) {
   return all;
 }
 
-/// A panel in a rectangle of the drawing.
+/// Draws a panel in a rectangle of the drawing.
 class Rectangle {
  public:
   Rectangle(std::ostream& svg, double top, const Panel& panel) : svg_(svg), top_(top), x_(panel.x), y_(panel.y) {

@@ -6,27 +6,27 @@
 namespace trk_bridge::shm {
 namespace {
 
-/// ns of a core for falling asleep and waking up: limits of what is believed.
+/// CPU time in ns to fall asleep and wake up: limits of plausible values.
 constexpr double least_sleep_cost = 5'000;
 constexpr double most_sleep_cost = 60'000;
-/// ns of a core that are saved at most, and owed at most.
+/// CPU time in ns: the largest credit and the largest debt.
 constexpr double most_credit = 500'000;
 constexpr double most_debt = 20'000;
 constexpr double most_learning_credit = 8'000'000;
-/// ns: less is not worth a sleep.
+/// ns: shorter sleeps are not useful.
 constexpr double shortest_sleep = 60'000;
-/// ns between looks while the period is not known.
+/// ns between polls while the period is unknown.
 constexpr double learning_sleep = 250'000;
-/// Sleeps that are longer say how late a sleep before an expected set ends.
+/// ns: only longer sleeps are used to measure how late a sleep ends.
 constexpr double long_sleep = 1'000'000;
 constexpr double longest_lateness = 400'000;
-/// Expected moments without a set, after which the rhythm is over.
+/// After this many expected times without a set, the period is unknown again.
 constexpr int most_missed = 8;
-/// Sets in a row at another time than expected, which are another rhythm.
+/// This many sets in a row at an unexpected time mean that the writer has shifted.
 constexpr int most_outliers = 2;
-/// Sets before any can be at another time than expected.
+/// Sets before one can count as an outlier.
 constexpr unsigned first_sets = 4;
-/// A set is looked for so many mean deviations around its moment.
+/// Polling is continuous within this many mean deviations around the expected time.
 constexpr double window = 3;
 constexpr double least_deviation = 5'000;
 
@@ -65,7 +65,7 @@ void Cadence::pay(std::int64_t now) noexcept {
   }
   credit_ = std::clamp(credit_ + share * since, -most_debt, most_credit);
   learning_credit_ = std::min(learning_credit_ + share * since, most_learning_credit);
-  // A sleep may have been ended before its time.
+  // A sleep may have ended early.
   if (before_ != Before::sleep || now < planned_) return;
   const double late = std::clamp(static_cast<double>(now - planned_), 0.0, longest_lateness);
   late_ += (late - late_) / 16;
@@ -81,14 +81,14 @@ void Cadence::found(std::int64_t now, unsigned sets) noexcept {
     return learn(now, sets);
   }
   missed_ = 0;
-  // It was written after the look before; what is expected within that time is not contradicted.
+  // It was written after the previous poll; any expected time within this interval is right.
   const double expected = expected_ + (sets - 1) * period_;
   double error = std::clamp(expected, -since, 0.0) - expected;
   const double written = expected + error;
   const double interval = written + static_cast<double>(now - last_found_);
   const double periods = std::max(std::round(interval / period_), static_cast<double>(sets));
   error -= period_ * std::round(error / period_);
-  // Found after a sleep that went past the moment: it may have been there for long.
+  // Found after a sleep beyond the expected time: it may have been written long before.
   if (error == 0 && before_ == Before::sleep) error = -deviation_ / 4;
   const bool is_outlier = std::abs(error) > 4 * deviation_ && tracked_ >= first_sets;
   outliers_ = is_outlier ? outliers_ + 1 : 0;
@@ -97,8 +97,8 @@ void Cadence::found(std::int64_t now, unsigned sets) noexcept {
   const double counted = is_outlier ? 4 * deviation_ : std::abs(error);
   deviation_ += (counted - deviation_) / std::min(tracked_ + 1, 16U);
   deviation_ = std::clamp(deviation_, least_deviation, period_ / 4);
-  // A set that strays alone was held up; the next ones come as ever. With the second the writer has moved. Otherwise
-  // half way: clocks of writers are steady, but those that sleep from set to set are not.
+  // A single outlier was delayed; the next sets come as before. With the second one, the writer has shifted. Otherwise,
+  // correct by half of the error: writers with a steady clock need no correction, but those that sleep between sets do.
   const double moved = !is_outlier ? written - error / 2 : outliers_ < most_outliers ? written - error : written;
   if (!is_outlier) period_ += (interval / periods - period_) / (tracked_ + 1);
   if (period_ < shortest_sleep) return forget();
@@ -107,7 +107,7 @@ void Cadence::found(std::int64_t now, unsigned sets) noexcept {
   expected_ = moved + period_;
 }
 
-// Two intervals: their mean is the period also where two writers take turns.
+// Uses two intervals: their mean is the period even if two writers alternate.
 void Cadence::learn(std::int64_t now, unsigned sets) noexcept {
   const double half = static_cast<double>(now - last_look_) / 2;
   const auto written = now - static_cast<std::int64_t>(half);
@@ -136,7 +136,7 @@ void Cadence::forget() noexcept {
 }
 
 double Cadence::sleep_while_unknown(std::int64_t now) noexcept {
-  // Without credit the sets of a fast writer would be replaced before they are seen.
+  // Without credit for this, sets of a fast writer would be replaced before they are read.
   const double least = is_fast_ || learning_credit_ >= sleep_cost_ ? learning_sleep : affordable_sleep();
   return std::clamp(static_cast<double>(now - last_found_) / 16, least, static_cast<double>(slowest));
 }

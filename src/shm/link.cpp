@@ -10,21 +10,21 @@
 namespace trk_bridge::shm {
 namespace {
 
-/// What is wrong with a record of a segment, beside what wire knows.
+/// Faults of records in a segment that wire does not have.
 enum class RecordProblem : std::uint8_t { implausible, uncertain, unsteady };
 
-// The field of such a fault is the size of the segment.
+// `field` of such a fault is the size of the segment.
 std::string describe_record(const transport::Fault& fault) {
   const std::string segment = "the segment of " + std::to_string(fault.field()) + " bytes";
   switch (static_cast<RecordProblem>(fault.code())) {
     case RecordProblem::implausible:
       return "no layout gives a record of " + segment +
-             " a rotation and numbers that a camera has: its writer may take it for one of another size";
+             " a plausible rotation and numbers: its writer may use it with another layout";
     case RecordProblem::uncertain:
       return "a record of " + segment +
-             " reads in both generations: which one the writer is of shows when it writes constants";
+             " is valid in both generations: the constants of the writer will show which one it is";
     case RecordProblem::unsteady:
-      return segment + " changed while it was copied, every time";
+      return segment + " changed during every attempt to copy it";
   }
   return "unknown problem";
 }
@@ -44,7 +44,7 @@ std::string_view constants_in(const RecordImage& image, const SegmentLayout& lay
   return image.part(layout.constants[image.counter & 1U], layout.constants_size);
 }
 
-/// What is wrong with a record of no layout: rather what wire says of it.
+/// The fault of a record without a valid layout: that of wire, if it has one.
 template <typename Record>
 transport::Fault fault_of(const tl::expected<Record, wire::Fault>& record, const transport::Fault& of_layout) noexcept {
   return record ? of_layout : transport::Fault(record.error());
@@ -54,7 +54,7 @@ bool is_all_zero(std::string_view bytes) noexcept {
   return std::all_of(bytes.begin(), bytes.end(), [](char c) { return c == 0; });
 }
 
-// Constants have been written when their counter has moved, or, after 65536 of them, when they are not all zero.
+// Constants were written if their counter is not 0, or, after 65536 of them, if they are not all zero.
 bool has_constants(const Segment& segment) noexcept {
   if (segment.constants_counter() != 0) return true;
   RecordImage image;
@@ -88,7 +88,7 @@ tl::expected<void, SlotFault> Link::keep_for_writing_now(Clock::time_point now) 
 }
 
 tl::expected<void, SlotFault> Link::open_for_writing() noexcept {
-  // A maker that takes longer has died or is none.
+  // A creator that takes longer has died or is not a trk program.
   constexpr int attempts = 200;
   constexpr timespec pause{0, 1'000'000};
   auto opened = keep_for_writing(Clock::now());
@@ -117,7 +117,7 @@ tl::expected<void, SlotFault> Link::check(bool look_up, const SegmentLayout* cre
     return tl::unexpected(fresh.error());
   }
   ++attached_;
-  // The contents are the same, so what was unread before still is.
+  // The contents are the same, so what was not read before is still unread.
   params_read_ = static_cast<std::uint16_t>(segment_->params_counter() - unread);
   constants_read_ = segment_->constants_counter();
   constants_unread_ = constants_unread;
@@ -128,7 +128,7 @@ Link::Look Link::look() const noexcept {
   return {segment_->attach_info(), segment_->params_counter(), segment_->constants_counter()};
 }
 
-// A program may attach, write and leave between two looks: it shows in the kernel's times or in the counters.
+// A program may attach, write and detach between two checks: the times of the kernel or the counters show this.
 bool Link::is_alone_too_long(Clock::time_point now) noexcept {
   const Look seen = look();
   const bool is_quiet = seen.attach_info == last_look_.attach_info && seen.params == last_look_.params &&
@@ -185,7 +185,7 @@ void Link::begin_reading(Clock::time_point now) noexcept {
   known_head_.reset();
   read_in_ = segment_->layout().record;
   const bool restore = written_constants_ && segment_->writable() && !has_constants(*segment_);
-  // They went into a segment before, and no layout refuses constants that another one can hold.
+  // It cannot fail: they were written to a segment before, and every layout can hold them.
   if (restore) static_cast<void>(segment_->write(*written_constants_));
   params_read_ = segment_->params_counter();
   constants_read_ = segment_->constants_counter();
@@ -201,8 +201,8 @@ tl::expected<const SegmentLayout*, transport::Fault> Link::layout_of_constants(c
   if (own_grade == 0 && other_grade == 0) return tl::unexpected(record_fault(RecordProblem::implausible, *segment_));
   const bool is_open = own_grade == other_grade && own_grade == 1;
   if (is_open) return writer_layout_ != nullptr ? writer_layout_ : &own;
-  // Good ones of the larger generation do not read as good ones of the smaller: its picture would have the size of id
-  // and width, and its chip that of two whole numbers.
+  // Plausible constants of the larger generation are not plausible in the smaller one: the image size would be id and
+  // width, and the chip size would come from whole numbers.
   writer_layout_ = own_grade > other_grade ? &own : smaller;
   return writer_layout_;
 }
@@ -217,16 +217,16 @@ tl::expected<const SegmentLayout*, transport::Fault> Link::layout_of_params(cons
     writer_layout_ = own_grade > 0 ? &own : smaller;
     return writer_layout_;
   }
-  // Both, which only generations can whose numbers lie in the same places.
+  // Plausible in both: only possible if the numbers have the same offsets in both generations.
   const std::string_view record = image.view();
   const bool has_first_word = !is_all_zero(record.substr(0, 4)), has_second_word = !is_all_zero(record.substr(4, 4));
-  if (!has_first_word && !has_second_word) return &own;  // neither id nor format: the same in both
+  if (!has_first_word && !has_second_word) return &own;  // id and format are 0: the same in both
   RecordImage constants;
   if (writer_layout_ == nullptr && has_constants(*segment_) && segment_->copy_constants(constants)) {
     static_cast<void>(layout_of_constants(constants));
   }
   if (writer_layout_ != nullptr) return writer_layout_;
-  // A format behind an id: padding seldom looks like one.
+  // A format after an id: padding seldom looks like one.
   if (has_second_word && own_grade >= other_grade) return &own;
   return tl::unexpected(record_fault(RecordProblem::uncertain, *segment_));
 }

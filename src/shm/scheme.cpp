@@ -19,7 +19,7 @@ constexpr std::array<Option<Settings>, 3> sink_options{{
      [](const std::string& v, Settings& s) {
        return transport::assign(transport::whole_number(v, 0, 0777, 8), s.mode);
      }},
-    {"recreate", transport::switch_allowed, "1: replace a segment that is there",
+    {"recreate", transport::switch_allowed, "1: replace an existing segment",
      [](const std::string& v, Settings& s) { return transport::assign_switch(v, s.recreate); }},
 }};
 

@@ -20,12 +20,12 @@
 namespace trk_bridge::shm {
 namespace {
 
-// A copy takes well under a microsecond: a writer that disturbs this many in a row is not a tracker.
+// A copy takes well under a microsecond: a tracker does not disturb this many in a row.
 constexpr int copy_attempts = 64;
 
 void* const no_memory = reinterpret_cast<void*>(-1);
 
-// Shared with other processes, so every access is atomic: the builtins work on memory that is not std::atomic.
+// Every access to the shared memory is atomic. The builtins also work on memory that is not std::atomic.
 template <typename T>
 T* at(char* base, std::size_t offset) noexcept {
   return reinterpret_cast<T*>(base + offset);
@@ -55,7 +55,7 @@ void copy_in_by(const char* from, std::size_t size, char* to) noexcept {
   }
 }
 
-// The segment begins at a page, and layouts are of 4-byte words at least.
+// The segment begins at a page boundary, and all sizes and offsets are multiples of 4 bytes.
 bool is_of_long_words(const char* shared, std::size_t size) noexcept {
   return reinterpret_cast<std::uintptr_t>(shared) % sizeof(std::uint64_t) == 0 && size % sizeof(std::uint64_t) == 0;
 }
@@ -70,7 +70,7 @@ void copy_words_in(const char* from, std::size_t size, char* to) noexcept {
   copy_in_by<std::uint32_t>(from, size, to);
 }
 
-// A maker may count itself in before it writes the magic.
+// Does not check `connected`: a creator may count itself before it writes the magic.
 bool is_unwritten(char* base, const SegmentLayout& layout) noexcept {
   const std::size_t size = layout.size - layout.params_counter;
   std::array<char, 1024> bytes{};
@@ -93,9 +93,10 @@ bool has_no_attachments(int id) noexcept {
   return ::shmctl(id, IPC_STAT, &state) == 0 && state.shm_nattch == 0 && may_remove(state);
 }
 
-// The file goes first: who opens the slot from then on makes a new file, with another key, and who had come to this
-// segment before is seen by a second look. What is left is one that attaches between that look and the removal. A file
-// that may not be moved stays with its segment: programs of the field cannot open a slot that has a file alone.
+// Moves the file first: programs that open the slot from then on create a new file with another key, and programs that
+// attached to this segment before are seen by a second check. Only a program that attaches between this check and the
+// removal is missed. A file that may not be moved is kept with its segment: existing programs cannot open a slot that
+// has only a file.
 void remove_if_last(int slot, int id) noexcept {
   if (!has_no_attachments(id)) return;
   const auto found = find_segment(slot);
@@ -109,7 +110,7 @@ void remove_if_last(int slot, int id) noexcept {
     if (errno == ENOENT && has_no_attachments(id)) ::shmctl(id, IPC_RMID, nullptr);
     return;
   }
-  // Somebody else may have done the same, and a third one have made the slot again.
+  // Another process may have done the same, and a third one may have recreated the slot.
   const bool is_its_file = ::ftok(spare->c_str(), 0) == found->key;
   const bool removes = has_no_attachments(id);
   if (removes) ::shmctl(id, IPC_RMID, nullptr);
@@ -139,7 +140,7 @@ tl::expected<Mapping, SlotFault> map(int slot, int id) noexcept {
 tl::expected<void, SlotFault> check_magic(int slot, char* base, const SegmentLayout& layout) noexcept {
   std::uint64_t magic = magic_in(base, layout);
   const bool unfinished = magic == 0 && is_unwritten(base, layout);
-  // Its maker may have finished it meanwhile.
+  // Its creator may have finished it meanwhile.
   if (magic == 0) magic = magic_in(base, layout);
   if (magic == segment_magic) return {};
   SlotFault fault = slot_fault(unfinished ? SlotProblem::unfinished : SlotProblem::foreign, slot);
@@ -196,7 +197,7 @@ tl::expected<Segment, SlotFault> Segment::attach(int slot) noexcept {
   Segment segment(slot, found->id, mapping->base, *layout, mapping->writable);
   segment.count_in();
   segment.correct_count();
-  // The last one to use it may have removed it between the look and the attachment.
+  // The last user may have removed it between the look-up and the attachment.
   if (segment.status(true) != SegmentStatus::current) return tl::unexpected(slot_fault(SlotProblem::no_segment, slot));
   return segment;
 }
@@ -215,7 +216,7 @@ tl::expected<Segment, SlotFault> Segment::create(int slot, const SegmentLayout& 
   }
   Segment segment(slot, id, mapping->base, layout, true);
   segment.finish();
-  // Somebody may have removed the file while the segment was in the making; nobody could find it then.
+  // If somebody removed the file during the creation, no program can find the segment.
   if (!means(slot, id)) {
     ::shmctl(id, IPC_RMID, nullptr);
     return tl::unexpected(slot_fault(SlotProblem::exists, slot));
@@ -266,7 +267,8 @@ void Segment::count_in() noexcept {
   counted_ = true;
 }
 
-// Only where it still is as it was seen: who counts in or out at this moment counts on from the true number.
+// Only if it has not changed since it was read: a process that attaches or detaches at this moment continues from the
+// right number.
 void Segment::correct_count() noexcept {
   if (!writable_) return;
   auto* const connected = at<std::int32_t>(base_, layout_->connected);
@@ -277,7 +279,7 @@ void Segment::correct_count() noexcept {
   }
 }
 
-// With the magic the segment can be used by others, who may leave at once and must not be the last ones by `connected`.
+// After the magic is written, others can attach and detach at once; `connected` must not be 0 then.
 void Segment::finish() noexcept {
   count_in();
   if (layout_->magic_size == 8) {
@@ -298,7 +300,8 @@ void Segment::close() noexcept {
   if (counted_ && owner_ == ::getpid()) {
     __atomic_sub_fetch(at<std::int32_t>(base_, layout_->connected), 1, __ATOMIC_ACQ_REL);
   }
-  // Detached before the count is looked at: of two that leave at once, one then sees that it was the last.
+  // Detaches before it checks the count: if two processes detach at the same time, one of them sees that it is the
+  // last.
   ::shmdt(release());
   remove_if_last(slot_, id_);
 }
@@ -354,7 +357,7 @@ bool Segment::copy_constants(RecordImage& into) const noexcept {
 }
 
 bool Segment::is_announced() const noexcept {
-  // In this order: the announcement is the first that a writer stores.
+  // In this order, because a writer stores the announcement first.
   const std::uint16_t counter = params_counter();
   const std::uint32_t announced = __atomic_load_n(at<std::uint32_t>(base_, page_rest::announcement), __ATOMIC_ACQUIRE);
   const auto ahead = static_cast<std::uint16_t>(announced - counter);
@@ -372,13 +375,13 @@ void Segment::announce() noexcept {
   __atomic_store_n(at<std::uint32_t>(base_, page_rest::announcement), announcement_mark | next, __ATOMIC_RELAXED);
 }
 
-// Either this sees that somebody waits, or who waits sees what was written: both store first and look then.
+// Either this sees the waiting reader, or the reader sees the new record: both store first and load afterwards.
 void Segment::wake() noexcept {
   std::atomic_thread_fence(std::memory_order_seq_cst);
   auto* const word = at<std::uint32_t>(base_, page_rest::wake_word);
   std::uint32_t value = __atomic_load_n(word, __ATOMIC_RELAXED);
   if (value % 2 == 0) return;
-  // Where it fails, another writer has done the same.
+  // If it fails, another writer has done the same.
   if (!__atomic_compare_exchange_n(word, &value, value + 1, false, __ATOMIC_SEQ_CST, __ATOMIC_RELAXED)) return;
   ::syscall(SYS_futex, word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
 }
@@ -386,7 +389,7 @@ void Segment::wake() noexcept {
 void Segment::put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept {
   auto* counter = at<std::uint16_t>(base_, counter_at);
   const auto next = static_cast<std::uint16_t>(__atomic_load_n(counter, __ATOMIC_RELAXED) + 1U);
-  // The element may be in a slow reader's hands: it must see the counter of the write before this one first.
+  // A slow reader may still copy this element: it must first see the counter of the previous write.
   std::atomic_thread_fence(std::memory_order_release);
   copy_words_in(image.data(), image.size(), base_ + elements[next & 1U]);
   __atomic_store_n(counter, next, __ATOMIC_RELEASE);
@@ -425,7 +428,7 @@ tl::expected<void, SlotFault> Segment::recreate(int mode) noexcept {
   if (!fresh) return tl::unexpected(fresh.error());
   const bool untouched = fresh->params_counter() == 0 && fresh->constants_counter() == 0;
   if (untouched && fresh->layout_ == &layout) {
-    // Counters last: a reader that attaches meanwhile finds nothing or all.
+    // Counters last: a reader that attaches meanwhile finds either nothing or everything.
     constexpr std::size_t counters = 4;
     copy_words_in(contents.data() + counters, layout.size - body - counters, fresh->base_ + body + counters);
     std::atomic_thread_fence(std::memory_order_release);

@@ -52,7 +52,7 @@ inline bool operator==(const SlotFault& a, const SlotFault& b) noexcept {
   return a.problem == b.problem && a.slot == b.slot && a.size == b.size && a.magic == b.magic &&
          a.other_slot == b.other_slot && a.error_number == b.error_number;
 }
-/// "slot 7: segment of 300 bytes is no trk layout".
+/// "slot 7: segment of 300 bytes is not a trk layout".
 std::string describe(const SlotFault&);
 
 /// Whether there is no segment yet, so that waiting makes sense.
@@ -149,7 +149,7 @@ class Segment {
   /// The next write of a writer that wakes readers changes the word and wakes those that sleep on it (a futex between
   /// processes). To miss nothing, check for new records after this call and before sleeping. Must be writable().
   Waiter wait_for_write() const noexcept;
-  /// Copies the newest parameters. False if a writer changed them during every copy; then `into` is undefined.
+  /// Copies the newest parameters. False if a writer changed them during every copy; then `into` is unspecified.
   [[nodiscard]] bool copy_params(RecordImage& into) const noexcept;
   /// Copies the newest constants. False as above.
   [[nodiscard]] bool copy_constants(RecordImage& into) const noexcept;

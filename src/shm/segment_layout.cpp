@@ -14,8 +14,7 @@ constexpr std::array<SegmentLayout, 4> layouts{{
     {508, record(wire::Generation::document, wire::Abi::i386), 4, 4, 8, 10, 192, 56, {12, 204}, {396, 452}},
 }};
 
-// The header ends where the first record begins, records follow each other without a gap, and the copies go word by
-// word.
+// The first record follows the header, there are no gaps between records, and all offsets are multiples of a word.
 constexpr bool is_tight(const SegmentLayout& l) {
   return l.connected == l.magic_size && l.params_counter == l.connected + 4 &&
          l.constants_counter == l.params_counter + 2 && l.params[0] == l.constants_counter + 2 &&

@@ -35,8 +35,8 @@ SinkFault fault_of(const SlotFault& fault) noexcept {
   return {SinkReason::gone};
 }
 
-/// A segment that was removed or replaced is created again within the write that meets it; `gone` and `system` say that
-/// this failed. Nothing waits: where somebody else is making or removing the segment, the next write looks again.
+/// If the segment was removed or replaced, the next write recreates it; `gone` and `system` mean that this failed.
+/// Nothing waits: if another program is creating or removing the segment, the next write tries again.
 class ShmSink final : public transport::Sink {
  public:
   explicit ShmSink(const Settings& settings)

@@ -18,7 +18,7 @@ constexpr std::string_view prefix = "/tmp/dmc_tracking_buffer.";
 constexpr std::string_view characters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
 static_assert(characters.size() == slot_count);
 
-// The field's own files have it; only their inode counts.
+// Existing programs use this mode; only the inode matters.
 constexpr mode_t file_mode = 0755;
 
 std::string hexadecimal(std::uint64_t value) {
@@ -36,11 +36,11 @@ std::string describe_problem(const SlotFault& f) {
     case SlotProblem::no_segment:
       return "no segment";
     case SlotProblem::unfinished:
-      return "segment of " + size + " bytes is empty: its maker has not finished it";
+      return "segment of " + size + " bytes is empty: its creator has not finished it";
     case SlotProblem::abandoned:
-      return "nobody has attached to its segment";
+      return "no other program is attached to its segment";
     case SlotProblem::foreign:
-      if (layout_of_size(f.size) == nullptr) return "segment of " + size + " bytes is no trk layout";
+      if (layout_of_size(f.size) == nullptr) return "segment of " + size + " bytes is not a trk layout";
       return "segment of " + size + " bytes begins with " + hexadecimal(f.magic) + " instead of " +
              hexadecimal(segment_magic) + " and is not trk";
     case SlotProblem::not_a_file:
@@ -53,7 +53,7 @@ std::string describe_problem(const SlotFault& f) {
     case SlotProblem::no_key:
       return "every new file in /tmp has the key of another segment";
     case SlotProblem::exists:
-      return "another program makes and removes the segment at the same time";
+      return "another program creates or removes the segment at the same time";
     case SlotProblem::system:
       return std::generic_category().message(f.error_number);
   }
@@ -95,7 +95,7 @@ tl::expected<key_t, SlotFault> slot_key(int slot) noexcept {
 tl::expected<void, SlotFault> check_unshared(int slot, key_t key) noexcept {
   for (int other = 0; other < slot_count; ++other) {
     if (other == slot || slot_key(other).value_or(IPC_PRIVATE) != key) continue;
-    // The slot's own file may have gone meanwhile, and its inode be another's.
+    // The own file may have been removed meanwhile, and its inode reused.
     if (slot_key(slot).value_or(IPC_PRIVATE) != key) return tl::unexpected(slot_fault(SlotProblem::no_file, slot));
     SlotFault fault = slot_fault(SlotProblem::key_shared, slot);
     fault.other_slot = other;
@@ -132,7 +132,7 @@ bool SpareFile::become_slot_file() const noexcept { return ::link(c_str(), SlotP
 bool SpareFile::take_slot_file() const noexcept { return ::rename(SlotPath(slot_).c_str(), c_str()) == 0; }
 
 tl::expected<bool, SlotFault> make_slot_file(int slot, bool replace) noexcept {
-  // Those that are of no use stay until the end, so that the next has another inode.
+  // Unusable files are kept until the end, so that the next one has another inode.
   std::array<std::optional<SpareFile>, 8> spares;
   for (auto& spare : spares) {
     auto made = SpareFile::make(slot);

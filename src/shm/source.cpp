@@ -31,40 +31,41 @@ using std::chrono::nanoseconds;
 using transport::Event;
 using transport::SourceState;
 
-/// A segment full of what is no record is not looked at more often.
+/// The shortest time between reads if the records are malformed.
 constexpr nanoseconds malformed_period = std::chrono::microseconds(250);
 
-/// For so long after its last set, a writer that wakes nobody may write again.
+/// How long after its last set a writer that does not wake readers is polled for.
 constexpr nanoseconds quiet_writer_memory = std::chrono::seconds(2);
 
 std::int64_t nanoseconds_of(Clock::time_point time) noexcept { return nanoseconds(time.time_since_epoch()).count(); }
 
-/// ns that this thread has had of a core.
+/// CPU time of this thread, ns.
 std::int64_t cpu_time() noexcept {
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
 }
 
-/// Sleeps of this thread end as exactly as the machine can, not within 50 us.
+/// Sleeps of this thread end as exactly as possible, not with the default slack of 50 us.
 void end_sleeps_exactly() noexcept {
   static thread_local const int done = ::prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0);
   static_cast<void>(done);
 }
 
-/// Sleeps that a writer in another process and stop() end. Linux 5.16 can; elsewhere only stop() and the time do.
+/// Sleeps until a writer in another process or stop() wakes it. Needs Linux 5.16; otherwise only stop() and the time
+/// limit end a sleep.
 class Sleeper {
  public:
-  /// False: nobody can be waited for, and the caller has to look.
+  /// False: writers cannot wake it, and the caller must poll.
   bool can_be_woken() const noexcept { return has_futex_waitv_; }
-  /// Ends every sleep, for good. Any thread, safe in a signal handler; errno stays.
+  /// Ends every sleep, now and later. Any thread, safe in a signal handler; errno is not changed.
   void stop() noexcept {
     const int saved = errno;
     stopped_ = 1;
     ::syscall(SYS_futex, &stopped_, FUTEX_WAKE_PRIVATE, INT_MAX, nullptr, nullptr, 0);
     errno = saved;
   }
-  /// False where the system cannot do it; can_be_woken() is false from then on.
+  /// False if the system does not support it; can_be_woken() is false from then on.
   bool sleep(Clock::time_point until, const std::optional<Segment::Waiter>& writer) noexcept {
     struct Futex {
       std::uint64_t value, address;
@@ -90,7 +91,7 @@ class Sleeper {
   bool has_futex_waitv_ = true;
 };
 
-/// Whether a segment is attached.
+/// State of the attachment, for statistics.
 struct Attachment {
   std::uint64_t attached = 0, overwritten = 0;
   bool absent = true;
@@ -98,8 +99,8 @@ struct Attachment {
   SlotFault why{SlotProblem::no_file};
 };
 
-/// Looks for a segment until there is one, then sleeps until a writer wakes it or, for those that do not, until it is
-/// time to look.
+/// Looks for a segment until there is one. Then it sleeps until a writer wakes it or, for writers that do not wake
+/// readers, until the next poll.
 class ShmSource final : public transport::CountedSource {
  public:
   explicit ShmSource(const Settings& settings)
@@ -128,7 +129,7 @@ class ShmSource final : public transport::CountedSource {
         if (const Event event = look(into, now); event != Event::idle) return event;
       }
       const bool endless = wait < nanoseconds::zero();
-      // As a difference, for `begin + wait` may be past what the clock can represent.
+      // As a difference, because `begin + wait` may overflow.
       const nanoseconds left = endless ? nanoseconds::max() : wait - (now - begin);
       if (left <= nanoseconds::zero()) return Event::idle;
       if (!sleep(now, left)) return failed(errno);
@@ -151,7 +152,8 @@ class ShmSource final : public transport::CountedSource {
     published_.store(attachment_);
   }
 
-  /// Until it is time to look again, `most` at most, or a writer or stop() says so. False, with errno: it cannot sleep.
+  /// Sleeps until the next poll, at most `most`, or until a writer or stop() wakes it. False, with errno: it cannot
+  /// sleep.
   bool sleep(Clock::time_point now, nanoseconds most) {
     nanoseconds time = Link::attach_period;
     std::optional<Segment::Waiter> writer;
@@ -180,21 +182,21 @@ class ShmSource final : public transport::CountedSource {
     return has_slept;
   }
 
-  /// By writers that do.
+  /// Whether writers of this package can wake it.
   bool can_be_woken() const noexcept { return sleeper_.can_be_woken() && link_.segment()->writable(); }
-  /// Whether every writer does, as far as known.
+  /// Whether, as far as known, every writer wakes it.
   bool is_woken(Clock::time_point now) const noexcept {
     return can_be_woken() && link_.segment()->is_announced() && now >= look_until_;
   }
 
-  /// What a look at `now` found of parameters.
+  /// Reports that a poll at `now` found this number of parameters.
   void learn(Clock::time_point now, unsigned sets) noexcept {
-    // One that was replaced before it was seen may have been of another writer.
+    // A set that was replaced before it was read may have been from another writer.
     if (sets > 1 || (sets > 0 && !link_.segment()->is_announced())) look_until_ = now + quiet_writer_memory;
     if (!is_woken(now)) cadence_.looked(nanoseconds_of(now), sets);
   }
 
-  /// Constants first: what follows is understood by them.
+  /// Constants first, because parameters are decoded with them.
   Event look(transport::Reception& into, Clock::time_point now) {
     if (link_.segment() == nullptr) return Event::idle;
     ReadResult met = link_.read(constants_, into.fault);
@@ -238,7 +240,7 @@ class ShmSource final : public transport::CountedSource {
     } else if (statistics.records == 0) {
       statistics.waiting_for = "slot " + std::to_string(slot_) + ": attached, nothing written yet";
       if (attachment.has_32_bit_program) {
-        statistics.waiting_for += "; a 32-bit program is attached, and what it writes cannot be found";
+        statistics.waiting_for += "; a 32-bit program is attached, whose records cannot be read";
       }
     }
   }
@@ -247,8 +249,8 @@ class ShmSource final : public transport::CountedSource {
   Link link_;
   Sleeper sleeper_;
   Cadence cadence_{0};
-  Clock::time_point look_until_{};  // for a writer that wakes nobody
-  Clock::time_point next_look_{};   // not before
+  Clock::time_point look_until_{};  // polls for a writer that does not wake readers
+  Clock::time_point next_look_{};   // no read before this time
   wire::CameraParams params_;
   wire::CameraConstants constants_;
   Attachment attachment_;

@@ -21,7 +21,7 @@ bool assign_hosts(const std::string& value, std::vector<std::string>& to) {
     const std::size_t end = std::min(value.find(',', begin), value.size());
     if (end == begin) return false;
     std::string host = value.substr(begin, end - begin);
-    // As in a URL's host, an IPv6 address may stand in brackets.
+    // An IPv6 address may be in brackets, as in the host of a URL.
     if (host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
     if (host.empty()) return false;
     to.push_back(std::move(host));
@@ -47,13 +47,13 @@ tl::expected<HostAndPort, std::string> split_host(std::string_view place) {
   parts.has_port = !rest.empty() && rest.front() == ':';
   if (parts.has_port) parts.port = rest.substr(1);
   if (parts.port.find(':') != std::string_view::npos) {
-    return tl::make_unexpected("host \"" + std::string(place) + "\": an IPv6 address stands in [ ], as in [::1]:7000");
+    return tl::make_unexpected("host \"" + std::string(place) + "\": an IPv6 address must be in [ ], as in [::1]:7000");
   }
   const std::string_view beyond = parts.has_port ? std::string_view{} : rest;
   if (parts.host.find_first_of("/ []") != std::string_view::npos || !beyond.empty()) {
     return tl::make_unexpected("host \"" + std::string(place) +
                                "\": a name, an IPv4 address or [an IPv6 address] and " +
-                               "nothing behind the port is allowed");
+                               "nothing after the port is allowed");
   }
   return parts;
 }
@@ -73,11 +73,11 @@ tl::expected<Place, std::string> place_in(const Url& url, Direction direction,
   const auto host = percent_decoded(parts->host);
   if (!host) return tl::make_unexpected("host = " + host.error());
   if (host->empty() && direction == Direction::write) {
-    return tl::make_unexpected("no host: writing needs the one to send to, as in " + url.scheme + "://192.0.2.7:7000");
+    return tl::make_unexpected("no host: writing needs a host to send to, as in " + url.scheme + "://192.0.2.7:7000");
   }
   if (!parts->has_port && standard_port) return Place{*host, *standard_port};
   if (!parts->has_port) {
-    return tl::make_unexpected("no port: there is no standard one, so it must be given (" + url.scheme +
+    return tl::make_unexpected("no port: there is no standard port, so it must be given (" + url.scheme +
                                "://HOST:PORT)");
   }
   const int lowest = direction == Direction::read ? 0 : 1;
@@ -103,18 +103,18 @@ tl::expected<void, std::string> read_place(const Url& url, Direction direction,
 }  // namespace
 
 const std::array<Option<ReceiveSettings>, 3> receive_options{{
-    {"allow", "addresses with a comma between", "Accept only these senders",
+    {"allow", "addresses separated by commas", "Accept only these senders",
      [](const std::string& v, ReceiveSettings& s) { return assign_hosts(v, s.allow); }},
-    {"interface", interface_allowed, "Join multicast groups there",
+    {"interface", interface_allowed, "Join multicast groups on this interface",
      [](const std::string& v, ReceiveSettings& s) { return assign_interface(v, s.interface); }},
-    {"buffer", "bytes from 1 to 1073741823", "Receive buffer of the kernel (8388608, or what it grants of that)",
+    {"buffer", "bytes from 1 to 1073741823", "Receive buffer of the kernel (8388608, or as much as it grants)",
      [](const std::string& v, ReceiveSettings& s) { return assign(whole_number(v, 1, 1073741823), s.buffer); }},
 }};
 
 const std::array<Option<SendSettings>, 2> send_options{{
-    {"interface", interface_allowed, "Send to multicast groups from there",
+    {"interface", interface_allowed, "Send to multicast groups from this interface",
      [](const std::string& v, SendSettings& s) { return assign_interface(v, s.interface); }},
-    {"ttl", "a whole number from 0 to 255", "Pass at most one router less than this",
+    {"ttl", "a whole number from 0 to 255", "Time to live (TTL): datagrams pass at most TTL - 1 routers",
      [](const std::string& v, SendSettings& s) { return assign(whole_number(v, 0, 255), s.ttl); }},
 }};
 

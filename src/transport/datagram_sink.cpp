@@ -36,7 +36,7 @@ Descriptor open_socket_to(const SocketAddress& target, const SendSettings& setti
   Descriptor socket(::socket(target.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!socket.is_open()) throw TransportError("no socket: " + std::generic_category().message(errno));
   const int fd = socket.get();
-  // Whether it is a broadcast address changes with the interfaces.
+  // Always set: whether the target is a broadcast address changes with the interfaces.
   if (target.family() == AF_INET) set_option(fd, SOL_SOCKET, SO_BROADCAST, 1, "broadcast");
   if (settings.ttl) set_ttl(fd, target, *settings.ttl);
   const bool group = is_multicast(target);
@@ -47,14 +47,14 @@ Descriptor open_socket_to(const SocketAddress& target, const SendSettings& setti
   }
   if (!settings.interface.empty() && !group) {
     throw TransportError("interface = \"" + settings.interface +
-                         "\" is for multicast: for one address the system's routes decide");
+                         "\" is for multicast: for other addresses, the routes of the system decide");
   }
   return socket;
 }
 
 SocketAddress target_of(const SendSettings& settings) {
   const SocketAddress target = resolve(settings.host, settings.port).front();
-  if (is_any(target)) throw TransportError("host \"" + settings.host + "\" is no address to send to");
+  if (is_any(target)) throw TransportError("host \"" + settings.host + "\" is not an address to send to");
   if (settings.port == 0) throw TransportError("port = 0: allowed for writing is a whole number from 1 to 65535");
   return target;
 }
@@ -88,7 +88,7 @@ class DatagramSink final : public Sink {
   /// The constants of one camera.
   struct Remembered {
     wire::CameraConstants constants;
-    std::optional<steady_clock::time_point> last_sent;  // none: these have not gone out yet
+    std::optional<steady_clock::time_point> last_sent;  // none: not sent yet
   };
 
   Written put(const wire::CameraParams& params) override;
@@ -106,19 +106,19 @@ class DatagramSink final : public Sink {
 
   const SocketAddress target_;
   Descriptor socket_;
-  const std::string interface_;  // that it is tied to; empty: the system's choice
+  const std::string interface_;  // the interface that must be used; empty: the system decides
   const std::string name_;
   std::unique_ptr<Encoder> encoder_;
   const steady_clock::duration period_;
   std::unordered_map<std::uint32_t, Remembered> remembered_;  // by id
 
-  std::atomic<bool> can_send_{true};     // the system's own choice, or an interface that can be sent through
-  std::optional<InterfaceWatch> watch_;  // the last one: its thread uses the others
+  std::atomic<bool> can_send_{true};     // false while the interface cannot be used
+  std::optional<InterfaceWatch> watch_;  // must be the last member: its thread uses the others
 };
 
 void DatagramSink::follow_interface() {
   const auto interface = find_interface(interface_);
-  // Without an address the kernel sends IPv4 from 0.0.0.0, which no receiver takes.
+  // If the interface has no address, the kernel sends IPv4 from 0.0.0.0, which no receiver accepts.
   const bool has_address = interface && (target_.family() != AF_INET || interface->has_ipv4);
   can_send_ = has_address && send_through(socket_.get(), target_, *interface);
 }
@@ -128,7 +128,7 @@ bool DatagramSink::follow_interface_or_wait() noexcept {
     follow_interface();
     return true;
   } catch (const TransportError&) {
-    // What was known of the interface still holds as far as anybody can tell.
+    // Keeps the last known state of the interface.
     return false;
   }
 }
@@ -137,7 +137,7 @@ Written DatagramSink::send_datagram(std::string_view datagram) noexcept {
   if (!can_send_) return refused(SinkReason::no_interface);
   ssize_t written;
   do {
-    // Not connected, so that an unreachable receiver does not fail the next datagram.
+    // Not connected: otherwise an unreachable receiver would make the next datagram fail.
     written = ::sendto(socket_.get(), datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL, target_.get(),
                        target_.length);
   } while (written < 0 && errno == EINTR);
@@ -173,14 +173,14 @@ Written DatagramSink::put(const wire::CameraParams& params) {
   encoder_->use_time(time().nanoseconds != 0 ? time().nanoseconds : base::wall_now(), time().time_code);
   const Written params_sent = send(params);
   if (!params_sent) return params_sent;
-  // The fault of the constants keeps write() from counting the parameters.
+  // Because of the fault of the constants, write() does not count the parameters.
   if (!constants_sent) count_params();
   return constants_sent;
 }
 
 Written DatagramSink::put(const wire::CameraConstants& constants) {
   const Written sent = send(constants);
-  // What can never go out is not worth repeating.
+  // Constants that can never be sent are not repeated.
   if (!sent && sent.error().reason == SinkReason::not_encodable) return sent;
   Remembered& remembered = remembered_[constants.id];
   remembered.constants = constants;

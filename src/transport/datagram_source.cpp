@@ -17,8 +17,8 @@
 namespace trk_bridge::transport {
 namespace {
 
-// What is there already is read even when the time is up, but no more than this of it: datagrams that give nothing, as
-// those of refused senders, may come faster than they are read.
+// Available datagrams are read even after the deadline, but at most this number: datagrams without a result, such as
+// those from refused senders, may arrive faster than they are read.
 constexpr std::uint64_t most_after_deadline = 4096;
 
 class DatagramSource final : public CountedSource {
@@ -60,15 +60,15 @@ class DatagramSource final : public CountedSource {
   void complete(SourceStatistics& statistics) const override;
 
   const Sockets sockets_;
-  Descriptor readable_;           // a set with all sockets in it, where there are several
-  std::size_t first_socket_ = 0;  // the socket that is asked first
+  Descriptor readable_;           // an epoll set of all sockets, if there are several
+  std::size_t first_socket_ = 0;  // the socket that is read first
   std::unique_ptr<Decoder> decoder_;
-  bool has_datagram_ = false;  // the decoder has
+  bool has_datagram_ = false;  // the decoder has a datagram
   Sender sender_;
   std::int64_t arrival_ = 0;
 };
 
-/// Of several sockets none is waited for, and each has its turn.
+/// With several sockets, it does not wait for one; they are read in turn.
 std::optional<ReceiveSocket::Datagram> DatagramSource::next_datagram(bool waits, int& error) noexcept {
   for (std::size_t i = 0; i < sockets_.size(); ++i) {
     ReceiveSocket& socket = *sockets_[first_socket_];
@@ -113,9 +113,9 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
       continue;
     }
     if (is_permanent(error)) return failed(error);
-    // One system call waits and reads; with a time limit there are three.
+    // Without a time limit, one system call waits and reads; with one, there are three calls.
     if (waits) continue;
-    // With no time to wait, what is there was asked for.
+    // Without waiting, only available datagrams are read.
     if (deadline.has_passed()) return Event::idle;
     switch (wait_readable(fd(), stop_event(), deadline)) {
       case Wake::readable:
@@ -130,7 +130,7 @@ Event DatagramSource::receive(Reception& into, std::chrono::nanoseconds wait) {
   }
 }
 
-/// It is not the decoder's.
+/// The decoder does not get such a datagram.
 Event DatagramSource::too_long(const ReceiveSocket::Datagram& datagram, Reception& into) noexcept {
   into.sample.sender = datagram.sender;
   into.sample.arrival = datagram.arrival;

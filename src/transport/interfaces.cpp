@@ -22,7 +22,7 @@
 namespace trk_bridge::transport {
 namespace {
 
-// Of <linux/in6.h>, which cannot stand beside <netinet/in.h>.
+// From <linux/in6.h>, which cannot be included together with <netinet/in.h>.
 constexpr int ipv6_multicast_all = 29;
 constexpr int ipv6_unicast_if = 76;
 
@@ -30,7 +30,7 @@ constexpr std::chrono::seconds retry_period{1};
 
 std::string system_text(int error) { return std::generic_category().message(error); }
 
-/// An address of an interface; one of another family where it has none.
+/// An address of an interface; its family is AF_UNSPEC if there is none.
 struct InterfaceAddress {
   std::string name;
   unsigned index = 0;
@@ -58,7 +58,7 @@ std::vector<InterfaceAddress> interface_addresses() {
   return addresses;
 }
 
-// Port and zone do not count.
+// Port and zone are ignored.
 bool same_address(const SocketAddress& a, const SocketAddress& b) noexcept {
   const Sender left = sender_of(a.storage), right = sender_of(b.storage);
   return left.kind == right.kind && left.address == right.address;
@@ -88,7 +88,7 @@ std::optional<Interface> find_in(const std::vector<InterfaceAddress>& known, con
 }  // namespace
 
 bool is_interface_name_or_address(const std::string& text) {
-  // The resolver takes 192.0.2 for 192.0.0.2.
+  // The resolver would read 192.0.2 as 192.0.0.2.
   in_addr ipv4{};
   const bool is_number_or_ipv4 = text.find_first_not_of("0123456789.") == std::string::npos;
   if (is_number_or_ipv4 && text.find('.') != std::string::npos) return ::inet_pton(AF_INET, text.c_str(), &ipv4) == 1;
@@ -100,7 +100,7 @@ std::string interface_of(const std::string& host, const std::string& interface) 
   if (!interface.empty()) return interface;
   std::string zone = zone_of(host);
   if (!zone.empty() && !is_interface_name_or_address(zone)) {
-    throw TransportError("host \"" + host + "\": behind % the name of an interface is allowed");
+    throw TransportError("host \"" + host + "\": after %, only the name of an interface is allowed");
   }
   return zone;
 }
@@ -146,7 +146,7 @@ bool join_group(int fd, const SocketAddress& group, unsigned index) {
   char name[IF_NAMESIZE] = "?";
   ::if_indextoname(index, name);
   throw TransportError("joining the group through interface " + std::string(name) + " failed: " + system_text(error) +
-                       " (interface=ADDR picks another one)");
+                       " (interface=ADDR selects another one)");
 }
 
 void leave_group(int fd, const SocketAddress& group, unsigned index) noexcept {
@@ -169,7 +169,7 @@ bool send_through(int fd, const SocketAddress& target, const Interface& interfac
     return ::setsockopt(fd, IPPROTO_IP, IP_MULTICAST_IF, &request, sizeof request) == 0;
   }
   const bool group = is_multicast(target);
-  // The kernel takes the one in the machine's byte order, the other in the network's.
+  // The first option is in host byte order, the second in network byte order.
   const unsigned index = group ? interface.index : htonl(interface.index);
   return ::setsockopt(fd, IPPROTO_IPV6, group ? IPV6_MULTICAST_IF : ipv6_unicast_if, &index, sizeof index) == 0;
 }
@@ -215,7 +215,7 @@ InterfaceWatch::Removed InterfaceWatch::read_changes() {
     for (auto* message = reinterpret_cast<nlmsghdr*>(data.data()); NLMSG_OK(message, left);
          message = NLMSG_NEXT(message, left)) {
       const auto* link = static_cast<const ifinfomsg*>(NLMSG_DATA(message));
-      // A bridge says with its own family that it let go of an interface.
+      // A bridge that releases an interface sends this message with another family.
       if (message->nlmsg_type == RTM_DELLINK && link->ifi_family == AF_UNSPEC) {
         removed.indices.push_back(static_cast<unsigned>(link->ifi_index));
       }

@@ -40,28 +40,28 @@ std::uint16_t port_in(const SocketAddress& address) {
   return static_cast<std::uint16_t>(sender_of(address.storage).number);
 }
 
-/// Ends every wait for the socket, now and later; its queue can still be read. Linux answers ENOTCONN and does it.
+/// Ends every wait for the socket, now and later; its queue can still be read. Linux does this although it returns
+/// ENOTCONN.
 void end_waits(int fd) noexcept { (void)::shutdown(fd, SHUT_RD); }
 
 Descriptor open_socket(int family) { return Descriptor(::socket(family, SOCK_DGRAM | SOCK_CLOEXEC, 0)); }
 
-void bind_or_say_why(int fd, const SocketAddress& address, bool shareable) {
+void bind_or_throw(int fd, const SocketAddress& address, bool shareable) {
   if (::bind(fd, address.get(), address.length) == 0) return;
   switch (errno) {
     case EADDRINUSE:
       throw TransportError(std::string("the port is in use") +
-                           (shareable
-                                ? " by a program that does not share it"
-                                : ": the kernel gives a datagram to one reader alone; several readers can share a "
-                                  "multicast group or a broadcast address"));
+                           (shareable ? " by a program that does not share it"
+                                      : ": the kernel gives a datagram to one reader only; several readers can share a "
+                                        "multicast group or a broadcast address"));
     case EACCES:
-      throw TransportError("this port is for privileged programs");
+      throw TransportError("this port is reserved for privileged programs");
     default:
       throw TransportError("binding failed: " + system_text(errno));
   }
 }
 
-/// In bytes as they are asked for; the kernel doubles them, its own bookkeeping included.
+/// In bytes as requested; the kernel doubles the number for its own overhead.
 int granted_buffer_of(int fd) noexcept {
   int granted = 0;
   socklen_t size = sizeof granted;
@@ -70,7 +70,7 @@ int granted_buffer_of(int fd) noexcept {
 
 void set_buffer(int fd, std::optional<int> bytes) {
   const int wanted = bytes.value_or(default_receive_buffer);
-  // Without the privilege for the first, the second grants as much as the system's limit.
+  // The first needs a privilege; without it, the second grants up to the limit of the system.
   if (::setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &wanted, sizeof wanted) != 0) {
     set_option(fd, SOL_SOCKET, SO_RCVBUF, wanted, "buffer");
   }
@@ -81,7 +81,7 @@ void set_buffer(int fd, std::optional<int> bytes) {
   }
 }
 
-// Of all datagrams since the socket was opened; unlike SO_RXQ_OVFL also of those after the last one read.
+// All drops since the socket was opened; unlike SO_RXQ_OVFL, including those after the last datagram that was read.
 std::optional<std::uint32_t> dropped_by_kernel(int fd) noexcept {
   std::array<std::uint32_t, SK_MEMINFO_VARS> info{};
   socklen_t size = sizeof info;
@@ -91,7 +91,7 @@ std::optional<std::uint32_t> dropped_by_kernel(int fd) noexcept {
   return info[SK_MEMINFO_DROPS];
 }
 
-/// Bound and with every option. Where the machine has no IPv6, every interface is every IPv4 interface.
+/// Opens a socket with all options and binds it. On a machine without IPv6, "every interface" means IPv4 only.
 Descriptor open_bound(const ReceiveSettings& settings, SocketAddress& address) {
   const bool every = is_every_interface(settings.host);
   Descriptor socket = open_socket(address.family());
@@ -106,11 +106,11 @@ Descriptor open_bound(const ReceiveSettings& settings, SocketAddress& address) {
   const bool shareable = group || is_broadcast(address);
   if (shareable) set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1, "sharing the port");
   if (group) receive_joined_only(fd, address.family());
-  set_option(fd, IPPROTO_IP, IP_FREEBIND, 1, "an address that may come later");
-  bind_or_say_why(fd, address, shareable);
+  set_option(fd, IPPROTO_IP, IP_FREEBIND, 1, "an address that does not exist yet");
+  bind_or_throw(fd, address, shareable);
   set_buffer(fd, settings.buffer);
-  // The first socket of a machine to ask wakes the stamping, which takes the kernel a moment: a datagram that comes
-  // within it is stamped when it is read.
+  // The first socket of a machine with this option starts the stamping, which takes the kernel some time: datagrams
+  // that arrive before are stamped when they are read.
   if (settings.has_arrivals) set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1, "receive times");
   if (!dropped_by_kernel(fd)) throw TransportError("the kernel does not count its drops (Linux 4.12 or later does)");
   return socket;
@@ -129,12 +129,12 @@ ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings)
       interface_(interface_of(settings.host, settings.interface)) {
   if (!settings.interface.empty() && !is_group_) {
     throw TransportError("interface = \"" + settings.interface +
-                         "\" is for multicast: to hear one interface only, write its address as the host");
+                         "\" is for multicast: to receive on one interface only, give its address as the host");
   }
   const bool is_tied = needs_zone(address_);
   if (is_tied && interface_.empty()) {
-    throw TransportError(std::string("this ") + (is_group_ ? "group" : "address") + " is one on each link: " +
-                         (is_group_ ? "interface=ADDR" : "%INTERFACE behind it") + " has to say which");
+    throw TransportError(std::string("this ") + (is_group_ ? "group" : "address") + " exists on each link: " +
+                         (is_group_ ? "interface=ADDR" : "%INTERFACE after it") + " must select one");
   }
   if (is_group_ || is_tied) watch_.emplace();
   if (is_tied) {
@@ -160,7 +160,8 @@ ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings)
     if (settings.has_arrivals) header.msg_control = controls_[i].data;
     prepare(header);
   }
-  if (watch_) watch_->start([this](const InterfaceWatch::Removed& removed) { return follow_or_say_why(removed); });
+  if (watch_)
+    watch_->start([this](const InterfaceWatch::Removed& removed) { return try_to_follow_interfaces(removed); });
 }
 
 void ReceiveSocket::replace_socket(const Descriptor& with) {
@@ -172,10 +173,10 @@ void ReceiveSocket::replace_socket(const Descriptor& with) {
     throw TransportError("no socket: " + system_text(errno));
   }
   earlier_drops_ += dropped_by_kernel(old.get()).value_or(0);
-  // Who waits in the old one has to wait in the new one, and a stop may have come to the old one alone.
+  // A reader that waits on the old socket must continue on the new one, and stop() may have seen only the old one.
   end_waits(old.get());
   if (stopped_) end_waits(socket_.get());
-  // The kernel takes the old one out of the set when its last descriptor is closed.
+  // The kernel removes the old one from the set when its last descriptor is closed.
   if (::epoll_ctl(readable_.get(), EPOLL_CTL_ADD, socket_.get(), &readable) != 0) {
     throw TransportError("no socket: " + system_text(errno));
   }
@@ -201,7 +202,7 @@ void ReceiveSocket::listen_through(unsigned interface_index) {
 void ReceiveSocket::follow_interfaces(const InterfaceWatch::Removed& removed) {
   const auto stop_listening = [this](auto is_over) {
     for (auto i = listens_through_.begin(); i != listens_through_.end();) {
-      // The kernel remembers what a socket joined, and refuses it again, also when the interface is gone.
+      // The kernel stores the memberships of a socket even if the interface is gone, and refuses to join again.
       if (is_over(*i)) leave_group(socket_.get(), address_, *i);
       i = is_over(*i) ? listens_through_.erase(i) : std::next(i);
     }
@@ -223,13 +224,13 @@ void ReceiveSocket::follow_interfaces(const InterfaceWatch::Removed& removed) {
     }
   }
   if (problem) throw TransportError(*problem);
-  // Its name or address has moved to another one.
+  // Another interface has the name or address now.
   if (!interface_.empty() && !wanted.empty()) {
     stop_listening([&wanted](unsigned index) { return index != wanted.front(); });
   }
 }
 
-bool ReceiveSocket::follow_or_say_why(const InterfaceWatch::Removed& removed) {
+bool ReceiveSocket::try_to_follow_interfaces(const InterfaceWatch::Removed& removed) {
   std::string problem;
   try {
     follow_interfaces(removed);
@@ -273,11 +274,11 @@ void ReceiveSocket::prepare(msghdr& header) const noexcept {
 }
 
 int ReceiveSocket::fill(bool waits) noexcept {
-  // Those that the last call wrote to.
+  // Resets the headers that the last call has changed.
   for (std::size_t i = 0; i < count_; ++i) prepare(headers_[i].msg_hdr);
   const int received =
       ::recvmmsg(socket_.get(), headers_.data(), batch, waits ? MSG_WAITFORONE : MSG_DONTWAIT, nullptr);
-  // The end of a wait looks like an empty datagram that nobody sent.
+  // The end of a wait looks like an empty datagram without a sender.
   if (received > 0 && headers_[0].msg_hdr.msg_namelen == 0) {
     prepare(headers_[0].msg_hdr);
     errno = EAGAIN;

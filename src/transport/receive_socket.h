@@ -102,7 +102,7 @@ class ReceiveSocket {
   void replace_socket(const Descriptor& with);
   void listen_through(unsigned interface_index);
   void follow_interfaces(const InterfaceWatch::Removed& removed);
-  bool follow_or_say_why(const InterfaceWatch::Removed& removed);
+  bool try_to_follow_interfaces(const InterfaceWatch::Removed& removed);
 
   void prepare(msghdr& header) const noexcept;
   int fill(bool waits) noexcept;

@@ -31,7 +31,7 @@ constexpr std::size_t index_of(const wire::Layout& layout, bool guessed) noexcep
   return index * 2 + (guessed ? 1 : 0);
 }
 
-/// Ends with a NUL.
+/// A text that ends with a NUL.
 struct Text {
   std::array<char, 48> characters{};
   std::size_t size = 0;
@@ -41,7 +41,7 @@ struct Text {
   }
 };
 
-/// The layout as `layout=…` of a URL has it.
+/// The layout as in `layout=…` of a URL.
 constexpr Text text_of(const wire::Layout& layout, bool guessed) noexcept {
   Text text;
   text.add("binary ");
@@ -70,7 +70,7 @@ constexpr Texts all_texts() noexcept {
   return texts;
 }
 
-// Made by the compiler, so that the first sample allocates nothing either.
+// Created at compile time, so that the first sample does not allocate either.
 constexpr Texts texts = all_texts();
 
 }  // namespace

@@ -84,7 +84,8 @@ std::string unknown_option(const std::string& key, std::string_view scheme, Dire
   const auto form_keys = keys_of(form_options);
   auto all = known;
   if (direction == Direction::write) all.insert(all.end(), form_keys.begin(), form_keys.end());
-  const std::string allowed = std::string(": ") + word(direction) + " " + std::string(scheme) + " knows " + joined(all);
+  const std::string allowed =
+      std::string(": ") + word(direction) + " " + std::string(scheme) + " has the options " + joined(all);
   const bool is_for_other_way = in(other_way) || (direction == Direction::read && in(form_keys));
   if (!is_for_other_way) return "unknown option " + key + allowed;
   return "option " + key + " is for " + word(direction == Direction::read ? Direction::write : Direction::read) +

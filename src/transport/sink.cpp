@@ -18,23 +18,23 @@ std::string describe(const SinkFault& fault) {
     case SinkReason::not_encodable:
       return "the record cannot be written: " + describe(fault.fault);
     case SinkReason::no_constants:
-      return "parameters came before the constants that a file begins with";
+      return "parameters came before the constants, which must be first in a file";
     case SinkReason::constants_changed:
-      return "a file holds one set of constants, and others came after the first";
+      return "a file has one set of constants, and other ones came later";
     case SinkReason::other_camera:
-      return "a file holds one camera, and this record has another id than the constants in the file";
+      return "a file has one camera, and the id of this record is not that of the constants in the file";
     case SinkReason::system:
       return "the system refused: " + std::generic_category().message(fault.error_number);
     case SinkReason::no_interface:
-      return "the interface to send through is not there or has no address; sending goes on when it has";
+      return "the interface to send through does not exist or has no address; sending continues when it has one";
     case SinkReason::gone:
-      return "there is no segment that can be written to; every write looks for one or creates it";
+      return "there is no segment to write to; every write looks for one or creates it";
     case SinkReason::closed:
       return "the sink is closed";
     case SinkReason::exists:
-      return "it exists; overwriting it has to be asked for (overwrite=1, --overwrite)";
+      return "it exists; to overwrite it, use overwrite=1 or --overwrite";
     case SinkReason::left_over:
-      return "its .part holds what an interrupted writer left; move that away, or ask for overwriting (--overwrite)";
+      return "its .part is from an interrupted writer; move it away, or use --overwrite";
     case SinkReason::in_use:
       return "another writer is writing it";
     case SinkReason::not_a_file:
@@ -42,9 +42,9 @@ std::string describe(const SinkFault& fault) {
     case SinkReason::no_reader:
       return "no program reads this FIFO";
     case SinkReason::no_free_number:
-      return "the numbers from 001 to 9999 are all taken";
+      return "all numbers from 001 to 9999 are in use";
     case SinkReason::no_answer:
-      return "it does not answer, and was not waited for";
+      return "it does not respond and was abandoned";
   }
   return "unknown fault";
 }

@@ -36,7 +36,7 @@ SocketAddress from(const T& address) noexcept {
 }
 
 struct Lookup {
-  int error = 0;  // of getaddrinfo
+  int error = 0;  // from getaddrinfo
   std::vector<SocketAddress> addresses;
 };
 
@@ -59,7 +59,7 @@ Lookup look_up(const std::string& host, std::uint16_t port, int flags) {
   return lookup;
 }
 
-// An IPv6 address and the zone behind its %; empty where there is no zone.
+// An IPv6 address and the zone after its %; empty without a zone.
 std::pair<std::string, std::string> split_zone(const std::string& host) {
   const std::size_t percent = host.find('%');
   if (percent == std::string::npos || host.find(':') >= percent) return {host, {}};
@@ -69,7 +69,7 @@ std::pair<std::string, std::string> split_zone(const std::string& host) {
 }  // namespace
 
 std::vector<SocketAddress> resolve(const std::string& host, std::uint16_t port) {
-  // The resolver knows the zones that are there now only.
+  // Without the zone, because the resolver knows only existing interfaces.
   Lookup lookup = look_up(split_zone(host).first, port, 0);
   if (lookup.error != 0) {
     const std::string reason =
@@ -153,7 +153,7 @@ void set_zone(SocketAddress& ipv6, unsigned interface_index) noexcept {
 }
 
 void set_port(SocketAddress& address, std::uint16_t port) noexcept {
-  // Both families have it in the same place.
+  // Both families have the port at the same offset.
   static_assert(offsetof(sockaddr_in, sin_port) == offsetof(sockaddr_in6, sin6_port));
   reinterpret_cast<sockaddr_in&>(address.storage).sin_port = htons(port);
 }
@@ -166,7 +166,8 @@ bool is_local(SocketAddress address) noexcept {
 
 bool is_broadcast(const SocketAddress& address) noexcept {
   if (address.family() != AF_INET) return false;
-  // The kernel refuses broadcast, and that alone, with EACCES to a socket that did not ask for it. Nothing is sent.
+  // If a socket has no broadcast option, the kernel refuses broadcast addresses with EACCES, and only these. Nothing is
+  // sent.
   const Descriptor probe(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   SocketAddress target = address;
   set_port(target, 9);
@@ -177,7 +178,7 @@ SocketAddress bound_address(int fd) {
   SocketAddress address;
   address.length = sizeof address.storage;
   if (::getsockname(fd, address.get(), &address.length) != 0) {
-    throw TransportError("the port of the socket is not known: " + std::generic_category().message(errno));
+    throw TransportError("the port of the socket cannot be read: " + std::generic_category().message(errno));
   }
   return address;
 }

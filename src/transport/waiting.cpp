@@ -19,7 +19,7 @@ namespace {
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-// Longer waits count as endless: their end would be beyond what the clock can represent.
+// Longer waits are treated as endless: the clock could not represent their end.
 constexpr nanoseconds longest_wait = std::chrono::hours(24 * 365 * 100);
 
 }  // namespace
@@ -34,7 +34,7 @@ void StopEvent::set() noexcept {
   const int saved = errno;
   set_.store(true, std::memory_order_release);
   const std::uint64_t one = 1;
-  // The only way to fail is a full counter, and then the descriptor is readable already.
+  // The write can fail only if the counter is full; then the descriptor is already readable.
   [[maybe_unused]] const ssize_t written = ::write(fd_, &one, sizeof one);
   errno = saved;
 }

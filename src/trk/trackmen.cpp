@@ -15,7 +15,7 @@ using wire::ByteOrder;
 using wire::Fault;
 using wire::Reason;
 
-// All little-endian. The four bytes behind the magic are unknown.
+// All little-endian. The four bytes after the magic are unknown.
 constexpr std::uint32_t magic = 0x544D4531;
 constexpr std::size_t counter_at = 8, numbers_at = 12, numbers = 14, size = 124;
 static_assert(numbers_at + numbers * sizeof(double) == size);
@@ -35,7 +35,7 @@ tl::expected<wire::CameraParams, Fault> trackmen_params(std::string_view datagra
   double* const all[numbers] = {&p.euler.x,    &p.euler.y,     &p.euler.z,  &p.euler.pan, &p.euler.tilt,
                                 &p.euler.roll, &field_of_view, &p.center_x, &p.center_y,  &p.k1,
                                 &p.k2,         &p.focdist,     &chip_width, &chip_height};
-  // The places of a record of Euler angles, without an aperture and a counter.
+  // The fields are those of a record with Euler angles, without aperture and counter.
   std::size_t place = wire::transform_place;
   for (std::size_t i = 0; i < numbers; ++i, ++place) {
     *all[i] = wire::load<double>(datagram.data() + numbers_at + i * sizeof(double), ByteOrder::little);

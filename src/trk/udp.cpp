@@ -14,7 +14,7 @@ namespace {
 using transport::Direction;
 using transport::Option;
 
-// What everything in use today speaks.
+// The layout of all programs in use.
 constexpr wire::Layout default_layout{wire::Generation::identified, wire::Abi::lp64, wire::ByteOrder::little};
 
 constexpr std::array<Option<UdpSourceSettings>, 1> source_options{{
@@ -25,7 +25,7 @@ constexpr std::array<Option<UdpSourceSettings>, 1> source_options{{
 constexpr std::array<Option<UdpSinkSettings>, 2> sink_options{{
     {"layout", transport::layout_allowed, "Layout of binary records (identified_lp64_le)",
      [](const std::string& v, UdpSinkSettings& s) { return transport::assign_layout(v, s.layout); }},
-    {"binary", transport::switch_allowed, "1: binary records in place of ASCII",
+    {"binary", transport::switch_allowed, "1: binary records instead of ASCII",
      [](const std::string& v, UdpSinkSettings& s) { return transport::assign_switch(v, s.binary); }},
 }};
 
@@ -67,7 +67,7 @@ tl::expected<UdpSinkSettings, std::string> udp_sink_settings(const transport::Ur
                                           transport::send_options, transport::repeat_options, sink_options);
   if (!set) return tl::make_unexpected(set.error());
   if (settings.layout.generation.has_value() && !settings.binary) {
-    return tl::make_unexpected(std::string("option layout counts for binary records only: give binary=1, too"));
+    return tl::make_unexpected(std::string("option layout is for binary records only: add binary=1"));
   }
   return settings;
 }

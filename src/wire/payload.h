@@ -13,7 +13,7 @@ namespace trk_bridge::wire {
 /// The largest size of a payload after a header.
 inline constexpr std::size_t payload_room = max_datagram - header_size;
 
-/// Reads all fields of `into`. False: `fault` gives the reason, and `into` is undefined. (To return a small
+/// Reads all fields of `into`. False: `fault` gives the reason, and `into` is unspecified. (To return a small
 /// tl::expected takes longer than to read a binary record, because it is written by bytes and read as words.)
 [[nodiscard]] bool read_text(std::string_view text, CameraParams& into, Fault& fault) noexcept;
 [[nodiscard]] bool read_text(std::string_view text, CameraConstants& into, Fault& fault) noexcept;

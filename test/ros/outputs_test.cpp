@@ -257,7 +257,7 @@ TEST_F(Outputs, StorageThatDoesNotAnswer) {
     expect_live_is_ok();
   });
   const std::string said = end();
-  EXPECT_THAT(said, HasSubstr("take.trk was not closed in order: it does not answer, and was not waited for; "));
+  EXPECT_THAT(said, HasSubstr("take.trk was not closed in order: it does not respond and was abandoned; "));
   EXPECT_THAT(said, HasSubstr(" records that waited are lost"));
 }
 
@@ -271,7 +271,7 @@ TEST_F(Outputs, AFifoThatNobodyReadsAnyMore) {
     EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing goes out: no answer for "));
     expect_live_is_ok();
   });
-  EXPECT_THAT(end(), HasSubstr("fifo was not closed in order: it does not answer, and was not waited for; "));
+  EXPECT_THAT(end(), HasSubstr("fifo was not closed in order: it does not respond and was abandoned; "));
 }
 
 TEST_F(Outputs, AHostWithoutRoute) {
@@ -286,7 +286,7 @@ TEST_F(Outputs, AHostWithoutRoute) {
 TEST_F(Outputs, ATakeOfThatName) {
   write_text(folder / "take.trk", "precious");
   ASSERT_NO_FATAL_FAILURE(start_with("file:" + folder / "take.trk"));
-  EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "take.trk: cannot be written: it exists; overwriting it has to be"));
+  EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "take.trk: cannot be written: it exists; to overwrite it, use"));
   expect_live(100, [&] { expect_live_is_ok(); });
   EXPECT_EQ(read_text(folder / "take.trk"), "precious");
   std::filesystem::remove(folder / "take.trk");

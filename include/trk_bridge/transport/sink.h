@@ -40,7 +40,7 @@ struct SinkFault {
 };
 bool operator==(const SinkFault&, const SinkFault&) noexcept;
 bool operator<(const SinkFault&, const SinkFault&) noexcept;
-/// One line for a person.
+/// One line for users.
 std::string describe(const SinkFault&);
 
 /// What was written so far. Trivially copyable.

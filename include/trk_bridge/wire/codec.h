@@ -47,7 +47,7 @@ struct Decoded : DecodedForm {
 
 /// Decodes one datagram. `detector` belongs to its sender and learns from valid binary records.
 [[nodiscard]] tl::expected<Decoded, Fault> decode(std::string_view datagram, LayoutDetector& detector) noexcept;
-/// The same into an existing record, which is faster. False: `fault` gives the reason, and `into` is undefined.
+/// The same into an existing record, which is faster. False: `fault` gives the reason, and `into` is unspecified.
 [[nodiscard]] bool decode(std::string_view datagram, LayoutDetector& detector, Record& into, DecodedForm& form,
                           Fault& fault) noexcept;
 

@@ -72,7 +72,8 @@ TEST(Endpoints, AnUnknownOptionListsTheKnownOfTheDirection) {
 }
 
 TEST(Endpoints, AnOptionOfTheOtherDirectionIsReportedAsSuch) {
-  EXPECT_THAT(read_error("udp://:7000?ttl=3"), AllOf(HasSubstr("ttl is for writing"), HasSubstr("reading udp knows")));
+  EXPECT_THAT(read_error("udp://:7000?ttl=3"),
+              AllOf(HasSubstr("ttl is for writing"), HasSubstr("reading udp has the options")));
   EXPECT_THAT(write_error("udp://h:7000?allow=h"), HasSubstr("allow is for reading"));
   EXPECT_THAT(read_error("shm:7?recreate=1"), HasSubstr("recreate is for writing"));
   EXPECT_THAT(read_error("file:a?overwrite=1"), HasSubstr("overwrite is for writing"));
@@ -173,7 +174,8 @@ TEST(Endpoints, AWrongFormNamesKeyValueAndWhatIsAllowed) {
   EXPECT_EQ(parse_sink("shm:7?format=vertical,diagonal")->form.format, std::uint32_t{wire::diagonal})
       << "of opposite words the last one counts";
   EXPECT_THAT(write_error("shm:7?preset=unrael"), AllOf(HasSubstr("'unrael'"), HasSubstr("unreal_trackmen")));
-  EXPECT_THAT(write_error("shm:7?preset=unreal_trackmen&format=euler"), HasSubstr("must not be given with format"));
+  EXPECT_THAT(write_error("shm:7?preset=unreal_trackmen&format=euler"),
+              HasSubstr("must not be given together with format"));
   EXPECT_THAT(write_error("shm:7?id=-1"), AllOf(HasSubstr("id = \"-1\""), HasSubstr("0 to 4294967295")));
   EXPECT_THAT(write_error("shm:7?preset=unreal_trackmen&id=3"), HasSubstr("sends no id"));
 }

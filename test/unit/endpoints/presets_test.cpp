@@ -134,7 +134,7 @@ TEST(PresetsFromYaml, SchemeAndOptions) {
   ASSERT_EQ(read->front().options.size(), 2U);
   EXPECT_EQ(read->front().options[1].key, "unwrap");
   EXPECT_EQ(read->front().options[1].value, "0");
-  EXPECT_THAT(error_of(one + "  options: profile=sony\n"), StartsWith("p.yaml:5: preset a: options: need the scheme"));
+  EXPECT_THAT(error_of(one + "  options: profile=sony\n"), StartsWith("p.yaml:5: preset a: options: need a scheme"));
   EXPECT_THAT(error_of(one + "  scheme: freed\n  options: sony\n"), StartsWith("p.yaml:6: preset a: options: option"));
 }
 

@@ -116,7 +116,7 @@ TEST_F(PlayFifo, WhatIsWrongIsAnErrorThatNamesTheLine) {
     return source->statistics().error;
   };
   EXPECT_THAT(error_of("DMC02\n"), HasSubstr(path + ":1: not a take"));
-  EXPECT_THAT(error_of("DMC01\n"), HasSubstr(path + ":2: the file ends where the time code"));
+  EXPECT_THAT(error_of("DMC01\n"), HasSubstr(path + ":2: the file ends before the time code"));
   EXPECT_THAT(error_of(take + "oops\n"), HasSubstr(path + ":7: "));
   EXPECT_THAT(error_of("DMC01\n10:20:30:49:1\n1920 1080 14 2 12 4 27 18 27 18\n"), HasSubstr("10:20:30:49:1"));
   settings.loop = true;

@@ -79,7 +79,7 @@ TEST(FileSettings, FileWritingOptions) {
   EXPECT_TRUE(other.number);
   EXPECT_EQ(other.rate, 59.94);
   EXPECT_THAT(write_error("file:a?rate=201"), AllOf(HasSubstr("201"), HasSubstr("1 to 200")));
-  EXPECT_THAT(write_error("file:a?number=1&overwrite=1"), HasSubstr("must not be given with number=1"));
+  EXPECT_THAT(write_error("file:a?number=1&overwrite=1"), HasSubstr("must not be given together with number=1"));
 }
 
 TEST(FileSettings, TheTimeInNamesOfRecordings) {

@@ -164,7 +164,7 @@ TEST_F(FileSinkTest, ThereIsAnEndOfNumbers) {
   write_text(directory / "crane-9998.trk", "");
   record("crane.trk?number=1");
   EXPECT_TRUE(exists(directory / "crane-9999.trk"));
-  EXPECT_THAT(opening_error("crane.trk?number=1"), HasSubstr("the numbers from 001 to 9999 are all taken"));
+  EXPECT_THAT(opening_error("crane.trk?number=1"), HasSubstr("all numbers from 001 to 9999 are in use"));
 }
 
 TEST_F(FileSinkTest, WhatAnInterruptedRecordingLeftIsPublishedAndSaid) {
@@ -196,7 +196,7 @@ TEST_F(FileSinkTest, WhatIsBeingWrittenIsNotRecovered) {
 
 TEST_F(FileSinkTest, WhyANameCannotBeOpened) {
   write_text(directory / "there.trk", "precious");
-  EXPECT_THAT(opening_error("there.trk"), HasSubstr("there.trk: cannot be written: it exists; overwriting it has to"));
+  EXPECT_THAT(opening_error("there.trk"), HasSubstr("there.trk: cannot be written: it exists; to overwrite it, use"));
   EXPECT_THAT(opening_error(""), HasSubstr("it is neither an ordinary file nor a FIFO"));
   EXPECT_THAT(opening_error("absent/a.trk"), HasSubstr("No such file or directory"));
   const auto sink = open_sink(url("mine.trk"));

@@ -313,7 +313,7 @@ TEST_F(PlayFile, ALoopOverATakeThatWasEmptiedEnds) {
     Event event = Event::sample;
     for (int i = 0; i < 3 && event == Event::sample; ++i) event = source->receive(r, 0ns);
     EXPECT_EQ(event, Event::failed);
-    EXPECT_EQ(source->statistics().error, path + ": loop=1: it has no parameters to play");
+    EXPECT_EQ(source->statistics().error, path + ": loop=1: the take has no parameters to play");
   }
 }
 

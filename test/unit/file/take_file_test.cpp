@@ -102,11 +102,12 @@ TEST_F(ReadTake, LinesAreCountedWithCommentsAndBlanks) {
 }
 
 TEST_F(ReadTake, EveryPartThatIsMissingOrWrong) {
-  EXPECT_THAT(error_of_text(""), StartsWith(path + ":1: the file ends where DMC01"));
+  EXPECT_THAT(error_of_text(""), StartsWith(path + ":1: the file ends before DMC01"));
   EXPECT_THAT(error_of_text("DMC02\n"), StartsWith(path + ":1: not a take"));
-  EXPECT_THAT(error_of_text("DMC01\n"), StartsWith(path + ":2: the file ends where the time code"));
+  EXPECT_THAT(error_of_text("DMC01\n"), StartsWith(path + ":2: the file ends before the time code"));
   EXPECT_THAT(error_of_text("DMC01\n10:20:30:12:3\n"), StartsWith(path + ":2: \"10:20:30:12:3\""));
-  EXPECT_THAT(error_of_text("DMC01\n10:20:30:12:1\n"), StartsWith(path + ":3: the file ends where the camera's const"));
+  EXPECT_THAT(error_of_text("DMC01\n10:20:30:12:1\n"),
+              StartsWith(path + ":3: the file ends before the camera's const"));
   EXPECT_THAT(error_of_text("DMC01\n10:20:30:12:1\n1920 1080 x\n"), StartsWith(path + ":3: constants: field 3"));
   EXPECT_THAT(error_of_text(head + std::string("1 2 3\n")), StartsWith(path + ":4: "));
   EXPECT_THAT(error_of_text(head + std::string(line).insert(20, std::string(1, '\0'))), StartsWith(path + ":4: "));

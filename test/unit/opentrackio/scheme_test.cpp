@@ -50,7 +50,7 @@ TEST(OpenTrackIoUrl, Reading) {
   EXPECT_EQ(source_of("opentrackio://?source=3&interface=lo&allow=192.0.2.7").interface, "lo");
 
   EXPECT_THAT(read_error("opentrackio://?source=201"), AllOf(HasSubstr("source = \"201\""), HasSubstr("1 to 200")));
-  EXPECT_THAT(read_error("opentrackio://192.0.2.7?source=3"), HasSubstr("leave one of them out"));
+  EXPECT_THAT(read_error("opentrackio://192.0.2.7?source=3"), HasSubstr("remove one of them"));
   EXPECT_THAT(read_error("opentrackio://:0?source=3"), HasSubstr("port = 0"));
   EXPECT_THAT(read_error("opentrackio://?tai_offset=x"), HasSubstr("tai_offset"));
   EXPECT_THAT(read_error("opentrackio://?profile=unreal"), HasSubstr("is for writing"));

@@ -100,9 +100,9 @@ TEST_F(Confused, a_segment_that_is_being_made_is_waited_for_and_left_alone) {
   Reception into;
   EXPECT_EQ(source->receive(into, 0s), Event::idle);
   EXPECT_EQ(source->statistics().state, SourceState::waiting);
-  EXPECT_THAT(source->statistics().waiting_for, HasSubstr("its maker has not finished it"));
+  EXPECT_THAT(source->statistics().waiting_for, HasSubstr("its creator has not finished it"));
   // The maker, this process, lives: a writer does not take over either.
-  EXPECT_THAT(refusal(url), HasSubstr("its maker has not finished it"));
+  EXPECT_THAT(refusal(url), HasSubstr("its creator has not finished it"));
   const auto sink = endpoints::parse_sink(url)->open();
   const auto written = sink->write(wire::CameraParams{});
   ASSERT_FALSE(written);
@@ -138,7 +138,7 @@ TEST_F(Confused, a_sink_whose_slot_became_foreign_says_that_there_is_no_segment_
   const auto written = sink->write(wire::CameraParams{});
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().reason, SinkReason::gone);
-  EXPECT_THAT(describe(written.error()), HasSubstr("there is no segment that can be written to"));
+  EXPECT_THAT(describe(written.error()), HasSubstr("there is no segment to write to"));
   EXPECT_EQ(contents(id, 300), std::string(300, '\0'));
   slot.remove();
   EXPECT_TRUE(sink->write(wire::CameraParams{})) << "every write looks again";
