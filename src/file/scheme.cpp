@@ -40,7 +40,7 @@ constexpr std::array<Option<SourceSettings>, 6> source_options{{
 
 constexpr std::array<Option<SinkSettings>, 4> sink_options{{
     {"timecode", "HH:MM:SS:FF:D, with D 1 or 2 (drop-frame: HH:MM:SS;FF:D)",
-     "Time code of the first field (its own one, else its time of day, UTC)",
+     "Time code of the first field (that of the field, else its time of day, UTC)",
      [](const std::string& v, SinkSettings& s) {
        const auto code = base::parse_time_code(v);
        if (code) s.time_code = *code;

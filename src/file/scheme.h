@@ -30,18 +30,19 @@ struct SourceSettings {
   double speed = 1.0;          ///< 0.001 to 1000; 0: as fast as possible
   bool loop = false;
   FileTime time = FileTime::timecode;
-  std::optional<std::int64_t>
-      date;              ///< midnight UTC, seconds since 1970, at most latest_date; default: the day of opening
+  /// Midnight UTC, seconds since 1970, at most latest_date; default: the day of opening.
+  std::optional<std::int64_t> date;
   bool lenient = false;  ///< malformed lines are skipped
 };
 
 /// `file:PATH?timecode=…&rate=…&number=1&overwrite=1`, to record a take.
 struct SinkSettings {
   RecordingName path;
-  std::optional<base::TimeCode> time_code;  ///< of the first field; default: its own one, else its time of day, UTC
-  double rate = 50;                         ///< Hz, 1 to 200, of the default time code
-  bool number = false;                      ///< add the next free number to the name
-  bool overwrite = false;                   ///< not together with `number`
+  /// Of the first field; default: that of the field, else its time of day, UTC.
+  std::optional<base::TimeCode> time_code;
+  double rate = 50;        ///< Hz, 1 to 200, of the default time code
+  bool number = false;     ///< add the next free number to the name
+  bool overwrite = false;  ///< not together with `number`
 };
 
 /// Errors name the part of the URL, its value and what is allowed.

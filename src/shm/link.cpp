@@ -19,7 +19,7 @@ std::string describe_record(const transport::Fault& fault) {
   switch (static_cast<RecordProblem>(fault.code())) {
     case RecordProblem::implausible:
       return "no layout gives a record of " + segment +
-             " a plausible rotation and numbers: its writer may use it with another layout";
+             " a plausible rotation and numbers: its writer may use the layout of another size";
     case RecordProblem::uncertain:
       return "a record of " + segment +
              " is valid in both generations: the constants of the writer will show which one it is";

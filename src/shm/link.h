@@ -141,7 +141,7 @@ class Link {
   std::uint16_t constants_read_ = 0;
   bool constants_unread_ = false;
   const SegmentLayout* writer_layout_ = nullptr;  // of the records; null: not known yet
-  // Id and format of the last parameters that were read in the own layout of the segment: equal words belong to the
+  // Id and format of the last parameters that were read in the layout of the segment itself: equal words belong to the
   // same writer, whose records need not be checked again.
   std::optional<std::array<char, 8>> known_head_;
   wire::Layout read_in_{};

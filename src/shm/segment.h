@@ -71,7 +71,7 @@ struct RecordImage {
   std::size_t at = 0, size = 0;
   std::uint16_t counter = 0;
 
-  /// The record in the own layout of the segment.
+  /// The record in the layout of the segment.
   std::string_view view() const noexcept { return part(at, size); }
   /// `length` bytes from offset `from` in the segment, which must have been copied.
   std::string_view part(std::size_t from, std::size_t length) const noexcept {

@@ -46,7 +46,7 @@ const SegmentLayout* layout_of(wire::Layout) noexcept;
 /// find the counters at the same offsets and write records in their own layout. Null if there is none.
 const SegmentLayout* smaller_generation(const SegmentLayout&) noexcept;
 
-/// The bytes of a current record in the own layout of a segment and in that of the other generation.
+/// The bytes of a current record in the layout of a segment and in that of the other generation.
 struct Range {
   std::size_t begin, end;
 };

@@ -95,7 +95,7 @@ tl::expected<key_t, SlotFault> slot_key(int slot) noexcept {
 tl::expected<void, SlotFault> check_unshared(int slot, key_t key) noexcept {
   for (int other = 0; other < slot_count; ++other) {
     if (other == slot || slot_key(other).value_or(IPC_PRIVATE) != key) continue;
-    // The own file may have been removed meanwhile, and its inode reused.
+    // The file of this slot may have been removed meanwhile, and its inode reused.
     if (slot_key(slot).value_or(IPC_PRIVATE) != key) return tl::unexpected(slot_fault(SlotProblem::no_file, slot));
     SlotFault fault = slot_fault(SlotProblem::key_shared, slot);
     fault.other_slot = other;

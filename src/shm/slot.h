@@ -59,7 +59,7 @@ class SpareFile {
 /// already.
 [[nodiscard]] tl::expected<bool, SlotFault> make_slot_file(int slot, bool replace) noexcept;
 
-/// A fault if the file of another slot has the same key: key_shared, or no_file if the own file is gone.
+/// A fault if the file of another slot has the same key: key_shared, or no_file if the file of this slot is gone.
 [[nodiscard]] tl::expected<void, SlotFault> check_unshared(int slot, key_t key) noexcept;
 
 AttachInfo attach_info_of(const shmid_ds& state) noexcept;

@@ -53,8 +53,8 @@ bool is_permanent(int error) noexcept;
 
 /// Bound from construction to destruction. Link-local addresses and groups (fe80::1%eth0, ff02::7) are bound while
 /// their interface exists. One thread at a time, except for stop(), granted_buffer(), kernel_drops() and
-/// why_nothing_can_arrive(); reading allocates nothing. For groups and link-local addresses, an own thread watches the
-/// interfaces.
+/// why_nothing_can_arrive(); reading allocates nothing. For groups and link-local addresses, a separate thread watches
+/// the interfaces.
 class ReceiveSocket {
  public:
   /// Throws TransportError.

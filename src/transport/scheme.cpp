@@ -85,7 +85,7 @@ std::string unknown_option(const std::string& key, std::string_view scheme, Dire
   auto all = known;
   if (direction == Direction::write) all.insert(all.end(), form_keys.begin(), form_keys.end());
   const std::string allowed =
-      std::string(": ") + word(direction) + " " + std::string(scheme) + " has the options " + joined(all);
+      std::string(": the options for ") + word(direction) + " " + std::string(scheme) + " are " + joined(all);
   const bool is_for_other_way = in(other_way) || (direction == Direction::read && in(form_keys));
   if (!is_for_other_way) return "unknown option " + key + allowed;
   return "option " + key + " is for " + word(direction == Direction::read ? Direction::write : Direction::read) +

@@ -88,8 +88,7 @@ constexpr bool operator!=(const LensEncoders& a, const LensEncoders& b) noexcept
 /// What a source returns. Copying allocates nothing.
 struct Sample {
   wire::Record record;
-  std::int64_t arrival =
-      0;  ///< ns since 1970 UTC: for datagrams, the receive time of the kernel; for files, see the source
+  std::int64_t arrival = 0;  ///< ns since 1970 UTC; for datagrams, from the kernel; for files, see the source
   Sender sender;
   const char* origin = "";  ///< its encoding, for users; static text: "ASCII", "binary identified_lp64"
 

@@ -69,10 +69,9 @@ Layout resolve(const LayoutChoice& choice, Layout fallback) noexcept;
 ///    generation only; for this, ids and format masks must be below 65536;
 /// 2. a format mask within known_format_bits and an id below 65536; then records with one of the two wrong; then with
 ///    both wrong;
-/// 3. identified if the second word is not 0 (padding seldom looks like a mask) or the first is below 16; else
-/// document:
-///    a first word of 16 or more followed by 0 is more probably a format with its padding than the id of a camera with
-///    the default format;
+/// 3. identified if the second word is not 0 (padding seldom looks like a mask) or the first is below 16; otherwise
+///    document: a first word of 16 or more followed by 0 is more probably a format with its padding than the id of a
+///    camera with the default format;
 /// 4. the last byte order of the sender, else little-endian.
 /// Criterion 3 is a guess if the record is valid in both generations (`Decoded::layout_guessed`): to avoid it, the
 /// sender must send constants, or the user must give the layout. If the first and second word are 0, they mean the same

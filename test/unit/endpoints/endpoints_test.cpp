@@ -73,7 +73,7 @@ TEST(Endpoints, AnUnknownOptionListsTheKnownOfTheDirection) {
 
 TEST(Endpoints, AnOptionOfTheOtherDirectionIsReportedAsSuch) {
   EXPECT_THAT(read_error("udp://:7000?ttl=3"),
-              AllOf(HasSubstr("ttl is for writing"), HasSubstr("reading udp has the options")));
+              AllOf(HasSubstr("ttl is for writing"), HasSubstr("the options for reading udp are")));
   EXPECT_THAT(write_error("udp://h:7000?allow=h"), HasSubstr("allow is for reading"));
   EXPECT_THAT(read_error("shm:7?recreate=1"), HasSubstr("recreate is for writing"));
   EXPECT_THAT(read_error("file:a?overwrite=1"), HasSubstr("overwrite is for writing"));

@@ -44,7 +44,8 @@ TEST(FreeDUrl, WhatIsWrongIsNamed) {
   EXPECT_THAT(read_error("freed://:40000?profile=viz"),
               HasSubstr("option profile = \"viz\": allowed are generic, sony, zcam, vizrt and mosys"));
   EXPECT_THAT(read_error("freed://:40000?checksum=1"), HasSubstr("allowed are strict and lenient"));
-  EXPECT_THAT(read_error("freed://:40000?unwrap=1"), HasSubstr("option unwrap is for writing: reading freed has"));
+  EXPECT_THAT(read_error("freed://:40000?unwrap=1"),
+              HasSubstr("option unwrap is for writing: the options for reading freed are"));
   EXPECT_THAT(write_error("freed://127.0.0.1:40000?checksum=lenient&lens=none"), HasSubstr("is for reading"));
   EXPECT_THAT(read_error("freed://:40000?lens=/nowhere/lens.yaml"),
               HasSubstr("option lens: /nowhere/lens.yaml: cannot be read"));
