@@ -37,8 +37,8 @@ const char* name(Reason reason) noexcept {
     case Reason::source_number:
     case Reason::no_source_number:
       return "source number";
-    case Reason::nothing_in_it:
-      return "nothing in it";
+    case Reason::empty_sample:
+      return "empty sample";
     case Reason::unknown_model:
       return "unknown distortion model";
     case Reason::sensor_needed:
@@ -81,15 +81,15 @@ std::string text_of(Reason reason, int member) {
     case Reason::source_number:
       return "sourceNumber is missing or not 1 to 200: the standard requires to discard such samples (source=any "
              "accepts them)";
-    case Reason::nothing_in_it:
+    case Reason::empty_sample:
       return "neither transforms nor static.camera with size and resolution of the sensor";
     case Reason::unknown_model:
       return "lens.distortion.model is neither \"Brown-Conrady D-U\" nor \"Brown-Conrady U-D\", or has more terms than "
-             "they have: the lens is left out";
+             "they have: the lens is ignored";
     case Reason::sensor_needed:
-      return "lens.distortion must be fitted to k1 and k2, and static.camera has not given the size of the sensor and "
-             "its "
-             "resolution: the lens is left out";
+      return "lens.distortion must be fitted to k1 and k2, but static.camera has not given the size and resolution of "
+             "the "
+             "sensor: the lens is ignored";
     case Reason::no_fit:
       return "lens.distortion folds within the image, or cannot be approximated by k1 and k2: the lens is ignored";
     case Reason::no_source_number:

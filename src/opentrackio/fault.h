@@ -24,7 +24,7 @@ enum class Reason : std::uint8_t {
   out_of_range,      ///< of a member
   missing,           ///< a member without which others are meaningless
   source_number,     ///< 0, above 200 or missing
-  nothing_in_it,     ///< neither a transform nor a sensor
+  empty_sample,      ///< neither a transform nor a sensor
   unknown_model,     ///< unknown distortion model
   sensor_needed,     ///< the distortion must be fitted, and the size of the sensor is unknown
   no_fit,            ///< the distortion cannot be approximated by k1 and k2

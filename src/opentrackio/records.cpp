@@ -284,7 +284,7 @@ tl::expected<Records, transport::Fault> RecordsReader::read(const Sample& sample
     records.lost = Lost::resolution;
   }
   if (sample.transforms == 0) {
-    if (!records.constants) return tl::unexpected(fault_of(Reason::nothing_in_it));
+    if (!records.constants) return tl::unexpected(fault_of(Reason::empty_sample));
     return records;
   }
   camera::Lens lens = lens_of(sample);
