@@ -13,12 +13,12 @@ const char* origin_of(Encoding encoding, Lost lost) noexcept {
     case Lost::nothing:
       return is_json ? "OpenTrackIO JSON" : "OpenTrackIO CBOR";
     case Lost::tangential:
-      return is_json ? "OpenTrackIO JSON, tangential distortion left out"
-                     : "OpenTrackIO CBOR, tangential distortion left out";
+      return is_json ? "OpenTrackIO JSON, tangential distortion ignored"
+                     : "OpenTrackIO CBOR, tangential distortion ignored";
     case Lost::distortion_offset:
-      return is_json ? "OpenTrackIO JSON, distortionOffset left out" : "OpenTrackIO CBOR, distortionOffset left out";
+      return is_json ? "OpenTrackIO JSON, distortionOffset ignored" : "OpenTrackIO CBOR, distortionOffset ignored";
     case Lost::scale:
-      return is_json ? "OpenTrackIO JSON, scale left out" : "OpenTrackIO CBOR, scale left out";
+      return is_json ? "OpenTrackIO JSON, scale ignored" : "OpenTrackIO CBOR, scale ignored";
     case Lost::resolution:
       return is_json ? "OpenTrackIO JSON, no activeSensorResolution: no constants"
                      : "OpenTrackIO CBOR, no activeSensorResolution: no constants";
