@@ -98,12 +98,12 @@ enum { trkStringSize = 4096 };
  * a decimal point in every locale. Returns the length; 0 and an empty text for a number that is not finite and for a
  * null pointer. The buffer has trkStringSize bytes. */
 TRK_PUBLIC int trkParamsToString(const trkCameraParams* params, char* buffer);
-/* The same of constants. */
+/* The same for constants. */
 TRK_PUBLIC int trkConstantsToString(const trkCameraConstants* constants, char* buffer);
 
 /* Reads a record from its text. Returns 1 if the text is valid, else 0; then the record is not changed. */
 TRK_PUBLIC int trkStringToParams(const char* string, trkCameraParams* params);
-/* The same of constants. */
+/* The same for constants. */
 TRK_PUBLIC int trkStringToConstants(const char* string, trkCameraConstants* constants);
 
 /* The identifiers that are relevant for a format mask, separated by single spaces; bits without a name are omitted.

@@ -67,7 +67,7 @@ inline trkCameraParams to_c(const wire::CameraParams& p) noexcept {
   return c;
 }
 
-/// The way back.
+/// The inverse.
 inline wire::CameraParams from_c(trkCameraParams c) noexcept {
   wire::CameraParams p;
   NamedParams named{c};
@@ -87,7 +87,7 @@ inline trkCameraConstants to_c(const wire::CameraConstants& k) noexcept {
   return c;
 }
 
-/// The way back.
+/// The inverse.
 inline wire::CameraConstants from_c(trkCameraConstants c) noexcept {
   wire::CameraConstants k;
   NamedConstants named{c};

@@ -12,7 +12,7 @@
 namespace trk_bridge::freed {
 
 enum class Profile : std::uint8_t {
-  generic,  ///< zoom and focus are counts of encoders, the spare bytes are unknown
+  generic,  ///< zoom and focus are encoder counts, the spare bytes are unknown
   sony,     ///< counts; spare: iris in the lower 12 bits, a frame number in the upper 4
   zcam,     ///< zoom: focal length, 1/100 mm; focus: distance, 1/10 mm; spare: 100 * F-number, and a frame number
   vizrt,    ///< counts, with 524288 for zero

@@ -10,7 +10,7 @@ namespace trk_bridge::shm {
 /// jitter of the writer and on how exactly this machine ends a sleep. The cost is limited: if an irregular writer would
 /// take more than `share` of a core, the polls are further apart. If a writer stops, polls become rarer and rarer.
 ///
-/// Times are ns of the steady clock. A value; allocates nothing.
+/// Times are in ns, of the steady clock. Copyable; allocates nothing.
 class Cadence {
  public:
   /// The writer may start at `now`.
