@@ -80,7 +80,7 @@ TEST(UdpSettings, UdpWrongHostsAndPorts) {
   EXPECT_THAT(read_error("udp://:7000/"), HasSubstr("port = \"7000/\""));
   EXPECT_THAT(read_error("udp://::1:7000"), HasSubstr("[::1]:7000"));
   EXPECT_THAT(read_error("udp://[::1:7000"), HasSubstr("["));
-  EXPECT_THAT(read_error("udp://[::1]7000"), HasSubstr("behind"));
+  EXPECT_THAT(read_error("udp://[::1]7000"), HasSubstr("nothing after the port"));
   EXPECT_THAT(read_error("udp://a b:7000"), HasSubstr("a b"));
   EXPECT_THAT(read_error("udp:7000"), HasSubstr("udp://HOST:PORT"));
   EXPECT_THAT(write_error("udp://:7000"), HasSubstr("no host"));

@@ -300,7 +300,7 @@ TEST(UdpSource, WhatCannotBeOpenedSaysWhy) {
   EXPECT_THAT(open_error("udp://192.0.2.300:0"), HasSubstr("192.0.2.300"));
   EXPECT_THAT(open_error("udp://[ff02::7]:0"), HasSubstr("interface=ADDR"));
   EXPECT_THAT(open_error("udp://[fe80::7]:7000"), HasSubstr("%INTERFACE"));
-  EXPECT_THAT(open_error("udp://[fe80::7%25sixteen_letters_]:7000"), HasSubstr("behind %"));
+  EXPECT_THAT(open_error("udp://[fe80::7%25sixteen_letters_]:7000"), HasSubstr("after %"));
   EXPECT_THAT(open_error("udp://[fe80::7%25nosuch0]:0"), testing::AllOf(HasSubstr("port = 0"), HasSubstr("nosuch0")));
 }
 
