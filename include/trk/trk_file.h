@@ -19,8 +19,7 @@ TRK_PUBLIC trkError trkFileOpenRead(const char* fileName, char* timeCode, trkCam
 #ifndef ONLY_READ
 
 /* Creates a file with a time code "HH:MM:SS:FF:D" and constants. It replaces an existing file. Until it is closed, the
- * file is named `fileName`.part. trkFailed also for a text that is not a time code.
- * */
+ * file is named `fileName`.part. trkFailed also for a text that is not a time code. */
 TRK_PUBLIC trkError trkFileOpenWrite(const char* fileName, const char* timeCode, const trkCameraConstants* constants,
                                      trkHandle* handle);
 
