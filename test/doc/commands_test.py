@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs every command of README.md and CONTRIBUTING.md and of the pages in doc/, as pages.py says that they are marked.
+"""Runs every command of all pages, as pages.py says that they are marked.
 
 A page is one session from top to bottom: what follows a command finds what that has left, files, parameters and what
 runs in the background until the text says Ctrl-C. Each page has a folder of its own, which is its home, too, and the
@@ -207,10 +207,10 @@ def main():
     parser.add_argument("--devel", type=pathlib.Path, required=True, help="that build's devel space")
     parser.add_argument("--junit", type=pathlib.Path, help="where results are written to")
     parser.add_argument("--section", help="only sections whose heading has this in it")
-    parser.add_argument("pages", nargs="*", type=pathlib.Path, help="default: README.md, CONTRIBUTING.md and doc/*.md")
+    parser.add_argument("pages", nargs="*", type=pathlib.Path, help="default: all pages")
     options = parser.parse_args()
     options.root, options.build = options.root.resolve(), options.build.resolve()
-    paths = [options.root / "README.md", options.root / "CONTRIBUTING.md", *sorted(options.root.glob("doc/**/*.md"))]
+    paths = pages.page_files(options.root)
     if options.pages:
         paths = [page.resolve() for page in options.pages]
 

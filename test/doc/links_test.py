@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether the links and pictures of README.md, CONTRIBUTING.md and of the pages in doc/ lead somewhere: links_test.py [ROOT].
+"""Whether the links and pictures of all pages lead somewhere: links_test.py [ROOT].
 
 Files must exist, with that very case, inside the repository, and be known to git where it is at hand; anchors must be a
 heading of their page, as GitHub names them. Addresses of other machines are not asked for, but must be https. What stands
@@ -13,6 +13,8 @@ import shutil
 import subprocess
 import sys
 import urllib.parse
+
+from pages import page_files
 
 LINK = re.compile(r"(?P<picture>!?)\[(?P<text>(?:[^\[\]]|\[[^\[\]]*\])*)\]\((?P<target>[^()\s]+)(?:\s+\"[^\"]*\")?\)")
 HTML_TARGET = re.compile(r"<(?:img|a)\b[^>]*\b(?:src|href)=\"(?P<target>[^\"]*)\"")
@@ -58,7 +60,7 @@ def exists_with_case(path):
 class Pages:
     def __init__(self, root):
         self.root = root.resolve()
-        self.pages = [self.root / "README.md", self.root / "CONTRIBUTING.md", *sorted((self.root / "doc").glob("*.md"))]
+        self.pages = page_files(self.root)
         self.reached = {}
         self.faults = []
 

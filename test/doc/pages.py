@@ -35,6 +35,12 @@ _RUN = re.compile(
 _LIST_ITEM = re.compile(r"^ {0,3}(?:[-*+]|\d+[.)])\s")
 
 
+def page_files(root):
+    """All pages of the repository, the README first."""
+    first = root / "README.md"
+    return [first, *(page for page in sorted(root.glob("*.md")) if page != first), *sorted(root.glob("doc/**/*.md"))]
+
+
 class PageError(Exception):
     """What is wrong with a page, with its line."""
 

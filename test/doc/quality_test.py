@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Whether the evidence in QUALITY_DECLARATION.md is there: quality_test.py [ROOT] [BUILD].
+
+A figure is followed by the command that gives it, `12 files <!-- = ls test | wc -l -->`: the number before must be what the
+command prints. Tests that the page names as `ctest -R NAME` must exist in BUILD, files and scripts in backticks in ROOT.
+Every source file must have a copyright statement, and doc/coverage.csv a row for each module. Links are checked by
+links_test.py.
+"""
+
+import csv
+import pathlib
+import re
+import subprocess
+import sys
+
+FIGURE = re.compile(r"(?P<number>\d[\d,.]*)(?P<words>[^|\d]*?)<!-- = (?P<command>.+?) -->")
+TEST = re.compile(r"`ctest -R (?P<pattern>[^`]+)`")
+PATH = re.compile(r"`(?P<path>(?:scripts|test|doc|include|src|\.ci)/[\w./-]*)`")
+COPYRIGHT = re.compile(r"Copyright \(c\) \d{4},? trk_bridge maintainers")
+SOURCES = ("*.h", "*.c", "*.cpp", "*.py", "*.sh", "scripts/*", ".ci/run")
+# A text, and a list of words that carries no code.
+NO_CODE = {"scripts/cppcheck_suppressions.txt"}
+
+
+def stale_figures(root, text):
+    for match in FIGURE.finditer(text):
+        done = subprocess.run(["bash", "-c", match["command"]], cwd=root, capture_output=True, text=True, check=False)
+        printed = done.stdout.strip()
+        if done.returncode != 0 or printed != match["number"]:
+            yield f"{match['number']}{match['words']}: `{match['command']}` prints {printed or done.stderr.strip()!r}"
+
+
+def missing_tests(build, text):
+    listed = subprocess.run(["ctest", "-N"], cwd=build, capture_output=True, text=True, check=True).stdout
+    names = re.findall(r"^\s*Test\s+#\d+: (\S+)", listed, re.MULTILINE)
+    for pattern in TEST.findall(text):
+        if not any(re.search(pattern, name) for name in names):
+            yield f"no test has {pattern} in its name"
+
+
+def missing_paths(root, text):
+    for path in PATH.findall(text):
+        if not (root / path).exists():
+            yield f"{path} does not exist"
+
+
+def without_copyright(root):
+    listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z", *SOURCES], capture_output=True, check=False)
+    if listed.returncode != 0:  # no clone
+        return
+    for name in filter(None, listed.stdout.decode().split("\0")):
+        if name in NO_CODE:
+            continue
+        begin = (root / name).read_text(encoding="utf-8", errors="replace")[:400]
+        if not COPYRIGHT.search(begin):
+            yield f"{name}: no copyright statement"
+
+
+def coverage_faults(root):
+    with (root / "doc" / "coverage.csv").open(encoding="utf-8") as table:
+        measured = {row["module"] for row in csv.DictReader(table)}
+    modules = {path.parent.name for path in root.glob("src/*/*.cpp")}
+    for name in sorted(modules ^ measured):
+        yield f"doc/coverage.csv and src/ differ in module {name}: run scripts/coverage"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]
+    build = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else root / "build"
+    text = (root / "QUALITY_DECLARATION.md").read_text(encoding="utf-8")
+    faults = [*stale_figures(root, text), *missing_tests(build, text), *missing_paths(root, text),
+              *without_copyright(root), *coverage_faults(root)]
+    for fault in faults:
+        print(f"QUALITY_DECLARATION.md: {fault}", file=sys.stderr)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
