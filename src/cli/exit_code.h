@@ -5,9 +5,10 @@ namespace trk_bridge::cli {
 
 enum ExitCode : int {
   exit_good = 0,
-  exit_failed = 1,  ///< something could not be opened, received or sent
-  exit_usage = 2,   ///< the command line was not understood
-  exit_alarm = 3,   ///< an alarm was raised
+  exit_failed = 1,   ///< something could not be opened, received or sent
+  exit_usage = 2,    ///< the command line was not understood
+  exit_nothing = 3,  ///< no record was received before a limit
+  exit_alarm = 4,    ///< an alarm was raised
 };
 
 }  // namespace trk_bridge::cli

@@ -43,12 +43,15 @@ Ending listen(transport::Source& source, Listener& listener, std::optional<doubl
   }
 }
 
-ExitCode report_end(const Tally& tally, const transport::SourceStatistics& source, Ending ending, std::ostream& err) {
+ExitCode report_end(const Tally& tally, const transport::SourceStatistics& source, Ending ending, bool has_limit,
+                    std::ostream& err) {
   tally.summarise(source, err);
   if (!source.waiting_for.empty()) err << "trk: waited for " << source.waiting_for << '\n';
-  if (ending != Ending::failed) return exit_good;
-  err << "trk: error: " << source.error << '\n';
-  return exit_failed;
+  if (ending == Ending::failed) {
+    err << "trk: error: " << source.error << '\n';
+    return exit_failed;
+  }
+  return has_limit && tally.received() == 0 ? exit_nothing : exit_good;
 }
 
 }  // namespace trk_bridge::cli

@@ -32,7 +32,7 @@ enum class Ending : std::uint8_t {
 Ending listen(transport::Source&, Listener&, std::optional<double> seconds = std::nullopt);
 
 /// The end of a program that has listened: the summary on `err`, and then what the source waited for, or its error
-/// where it failed.
-ExitCode report_end(const Tally&, const transport::SourceStatistics&, Ending, std::ostream& err);
+/// where it failed. With a limit (of records or time), exit_nothing if no record was received.
+ExitCode report_end(const Tally&, const transport::SourceStatistics&, Ending, bool has_limit, std::ostream& err);
 
 }  // namespace trk_bridge::cli

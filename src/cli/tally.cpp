@@ -40,9 +40,9 @@ std::optional<base::Order> Tally::add(const transport::Sample& sample) {
 }
 
 void Tally::summarise(const transport::SourceStatistics& source, std::ostream& out) const {
-  out << "trk: received " << params_ + constants_ << " (" << params_ << " parameters, " << constants_
-      << " constants), malformed " << source.malformed << ", refused " << source.refused << ", kernel drops "
-      << source.kernel_drops << ", overwritten " << source.overwritten << '\n';
+  out << "trk: received " << received() << " (" << params_ << " parameters, " << constants_ << " constants), malformed "
+      << source.malformed << ", refused " << source.refused << ", kernel drops " << source.kernel_drops
+      << ", overwritten " << source.overwritten << '\n';
   if (source.doubtful != 0) {
     out << "trk: " << source.doubtful << " records were taken in spite of: " << source.last_doubt << '\n';
   }

@@ -17,6 +17,9 @@ class Tally {
   /// The verdict on the counter; none for constants, and for cameras beyond `most_cameras`.
   std::optional<base::Order> add(const transport::Sample&);
 
+  /// Parameters and constants.
+  std::uint64_t received() const noexcept { return params_ + constants_; }
+
   struct Key {
     std::uint32_t id = 0;
     transport::Sender sender;

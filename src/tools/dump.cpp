@@ -28,7 +28,7 @@ class Dump final : public cli::Listener {
 
   cli::ExitCode finish(const transport::SourceStatistics& source, cli::Ending ending) {
     const cli::ExitCode written = out_.finish(err_);
-    const cli::ExitCode ended = cli::report_end(tally_, source, ending, err_);
+    const cli::ExitCode ended = cli::report_end(tally_, source, ending, options_.count || options_.seconds, err_);
     return written != cli::exit_good ? written : ended;
   }
 

@@ -18,7 +18,7 @@ struct DumpOptions {
 };
 
 /// Prints records to `out`; malformed ones, with reason and sender, and at the end the summary to `err`. That the
-/// reader of `out` closed the pipe is an ordinary end.
+/// reader of `out` closed the pipe is an ordinary end. exit_nothing when there is a limit and nothing was received.
 cli::ExitCode dump(transport::Source&, const DumpOptions&, std::ostream& out, std::ostream& err);
 
 }  // namespace trk_bridge::tools

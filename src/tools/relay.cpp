@@ -13,7 +13,9 @@ namespace {
 
 class Relay final : public cli::Listener {
  public:
-  explicit Relay(FanOut& sinks) : sinks_(sinks) {}
+  Relay(FanOut& sinks, std::optional<double> seconds) : sinks_(sinks), seconds_(seconds) {}
+
+  cli::Ending listen(transport::Source& source) { return cli::listen(source, *this, seconds_); }
 
   bool on_sample(const transport::Sample& sample) override {
     tally_.add(sample);
@@ -35,7 +37,7 @@ class Relay final : public cli::Listener {
 
   cli::ExitCode finish(const transport::SourceStatistics& source, cli::Ending ending) {
     sinks_.close();
-    const cli::ExitCode ended = cli::report_end(tally_, source, ending, sinks_.err());
+    const cli::ExitCode ended = cli::report_end(tally_, source, ending, seconds_.has_value(), sinks_.err());
     sinks_.summarise();
     if (without_lens_ != 0) {
       sinks_.report("not passed on: " + std::to_string(without_lens_) +
@@ -55,6 +57,7 @@ class Relay final : public cli::Listener {
   }
 
   FanOut& sinks_;
+  const std::optional<double> seconds_;
   cli::Tally tally_;
   std::map<std::string_view, std::uint64_t> malformed_;
   std::uint64_t without_lens_ = 0;
@@ -63,8 +66,8 @@ class Relay final : public cli::Listener {
 }  // namespace
 
 cli::ExitCode relay(transport::Source& source, FanOut& sinks, std::optional<double> seconds) {
-  Relay relay(sinks);
-  const cli::Ending ending = cli::listen(source, relay, seconds);
+  Relay relay(sinks, seconds);
+  const cli::Ending ending = relay.listen(source);
   return relay.finish(source.statistics(), ending);
 }
 

@@ -168,7 +168,7 @@ class MonitorCommand {
     add_seconds(*command_, options_.seconds);
     command_
         ->add_option("--alarm", alarms_,
-                     "Raise an alarm, as 'loss>1%': bell, first line, exit code 3. May be given several times. "
+                     "Raise an alarm, as 'loss>1%': bell, first line, exit code 4. May be given several times. "
                      "Quantities: " +
                          monitor::alarm_quantities() + ", of the last seconds")
         ->allow_extra_args(false)

@@ -16,6 +16,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "cli/exit_code.h"
 #include "program.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"
@@ -341,7 +342,7 @@ TEST(TrkMonitor, AnAlarmRingsAndIsTheExitCode) {
   ASSERT_TRUE(written("ALARM loss>1%: id 7: loss 66.67 %")) << monitor.written;
   ASSERT_TRUE(written("\a"));
   monitor.type('q');
-  EXPECT_EQ(monitor.wait(), 3);
+  EXPECT_EQ(monitor.wait(), cli::exit_alarm);
 }
 
 TEST(TrkMonitor, AnAlarmThatIsNotRaisedIsNoError) {
@@ -352,7 +353,7 @@ TEST(TrkMonitor, AnAlarmThatIsNotRaisedIsNoError) {
   test::Program raised({TRK_TOOL, "monitor", "--alarm=silence>0.1s", "--seconds", "0.5", "udp://127.0.0.1:0"});
   EXPECT_THAT(raised.rest_of_out(), HasSubstr("! ALARM silence>0.1s: silence "));
   raised.rest_of_err();
-  EXPECT_EQ(raised.wait(), 3);
+  EXPECT_EQ(raised.wait(), cli::exit_alarm);
   test::Program wrong({TRK_TOOL, "monitor", "--alarm", "los>1%", "udp://127.0.0.1:0"});
   EXPECT_THAT(wrong.rest_of_err(),
               HasSubstr("trk: error: --alarm: \"los>1%\": quantity \"los\": allowed are loss (%), rate (Hz)"));

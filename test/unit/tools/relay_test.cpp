@@ -352,6 +352,14 @@ TEST_F(RelayTest, ATakeThatIsPlayedAsFastAsPossibleLosesNothing) {
   EXPECT_EQ(slow.count(), 2 * sets);
 }
 
+TEST_F(RelayTest, NothingReceivedBeforeALimitIsAnExitCodeOfItsOwn) {
+  add_gate();
+  FanOut sinks(err);
+  for (const auto& endpoint : to) sinks.add(endpoint, {});
+  EXPECT_EQ(relay(*feed.source(), sinks, 0.01), cli::exit_nothing);
+  EXPECT_THAT(err.str(), HasSubstr("received 0 "));
+}
+
 TEST_F(RelayTest, ACopyOfATakeHasItsTimeCode) {
   const test::TemporaryDirectory folder;
   const std::string take = folder / "take.trk", copy = folder / "copy.trk";
