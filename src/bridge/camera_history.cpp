@@ -32,7 +32,7 @@ std::optional<CameraHistory::Found> CameraHistory::at(const PartTimes& wanted, s
       camera::interpolate(rotation.before->value.linear().eval(), rotation.after->value.linear().eval(), rotation.part);
   found.camera.lens = camera::interpolate(lens.before->value, lens.after->value, lens.part);
   found.times = {position.time, rotation.time, lens.time};
-  // A lens of times of its own may be one that stands: it needs to be no newer than the pose is.
+  // A lens with separate stamps may simply not have changed: it need not be newer than the pose.
   const std::int64_t newest_lens = lens_has_own_times_ ? newest() : lenses_.newest().time;
   found.margins = {newest() - wanted.position, newest() - wanted.rotation, newest_lens - wanted.lens};
   return found;

@@ -1,4 +1,4 @@
-// The newest samples of one camera, and the camera at a time between them.
+// The newest samples of one camera, and the camera interpolated between them.
 #pragma once
 
 #include <algorithm>
@@ -14,23 +14,23 @@
 
 namespace trk_bridge::bridge {
 
-/// The newest samples of a value, in the order of their times (ns). Allocates nothing.
+/// The newest samples of a value, ordered by time (ns). Does not allocate.
 template <typename Value>
 class SampleRing {
  public:
-  /// A second at 500 Hz.
+  /// One second at 500 Hz.
   static constexpr std::size_t capacity = 512;
 
   struct Sample {
     std::int64_t time = 0;
     Value value{};
   };
-  /// Where a time lies: at `before` where `part` is 0, at `after` where it is 1, beyond it where it is more.
+  /// Position of a time: at `before` if `part` is 0, at `after` if it is 1, extrapolated if it is larger.
   struct Place {
     const Sample* before;
     const Sample* after;
     double part;
-    std::int64_t time;  ///< that was asked for, or the nearest one that there is
+    std::int64_t time;  ///< the requested time, or the nearest available one
   };
 
   bool is_empty() const noexcept { return size_ == 0; }
@@ -39,8 +39,8 @@ class SampleRing {
   const Sample& newest(std::size_t back = 0) const noexcept { return ring_[(end_ + capacity - 1 - back) % capacity]; }
   const Sample& oldest() const noexcept { return newest(size_ - 1); }
 
-  /// A late one is put in its place. One of the time of another is left out, and so is one older than all of a full
-  /// ring.
+  /// Inserts a late sample in order. Ignores a sample with the time of another one, and one older than all samples of a
+  /// full ring.
   void add(std::int64_t time, const Value& value) noexcept {
     std::size_t newer = 0;
     while (newer < size_ && newest(newer).time > time) ++newer;
@@ -51,8 +51,8 @@ class SampleRing {
     at(newer) = {time, value};
   }
 
-  /// Not of an empty ring. Up to `lead` ns beyond the newest it extrapolates. The samples that it does that from are
-  /// half as far apart as it goes, or more: the noise of times that lie close together is not multiplied.
+  /// The ring must not be empty. Extrapolates up to `lead` ns beyond the newest sample, from samples that are at least
+  /// half that distance apart, so that the noise of closely spaced samples is not amplified.
   Place place_of(std::int64_t time, std::int64_t lead) const noexcept {
     const auto& last = newest();
     if (time > last.time) {
@@ -81,18 +81,18 @@ class SampleRing {
   std::size_t end_ = 0, size_ = 0;
 };
 
-/// A time of each part of a camera, ns.
+/// One time for each part of a camera, ns.
 struct PartTimes {
   std::int64_t position = 0, rotation = 0, lens = 0;
 };
 
-/// Not synchronised: one thread at a time. Allocates nothing.
+/// Not synchronised: one thread at a time. Does not allocate.
 class CameraHistory {
  public:
   struct Found {
     camera::Camera camera;
-    PartTimes times;    ///< what is found is of these
-    PartTimes margins;  ///< how far the newest samples are ahead of what is asked for; negative: they are behind
+    PartTimes times;    ///< the times of the returned parts
+    PartTimes margins;  ///< how far the newest samples are ahead of the requested times; negative: behind
   };
 
   bool is_empty() const noexcept { return poses_.is_empty(); }
@@ -102,12 +102,12 @@ class CameraHistory {
   }
   std::int64_t newest() const noexcept { return poses_.newest().time; }
 
-  /// The lens may be of another time than the pose, as a CameraInfo is; of a lens that comes again with its time only
-  /// what has changed counts, from the pose's time on.
+  /// The lens may have another time than the pose, like a CameraInfo. If a lens repeats an earlier time, it is stored
+  /// only if its values changed, with the time of the pose.
   void add(const camera::Camera&, std::int64_t time, std::int64_t lens_time) noexcept;
 
-  /// The camera at these times; up to `lead` ns beyond the newest samples it is extrapolated, and later than that it is
-  /// as it is there. None where there are no samples, or all poses are younger. A lens is as old as it needs to be.
+  /// The camera at these times, extrapolated up to `lead` ns beyond the newest samples and held constant after that.
+  /// None if there are no samples, or if all poses are newer. There is no limit to the age of the lens.
   std::optional<Found> at(const PartTimes&, std::int64_t lead) const noexcept;
 
  private:

@@ -1,4 +1,4 @@
-// The numbers of a CameraInfo, and the lens that they describe: the one that trk can send, and the one to draw.
+// The numbers of a CameraInfo, and the lens that they describe: as trk can send it, and as it is drawn.
 #pragma once
 
 #include <array>
@@ -13,22 +13,21 @@
 
 namespace trk_bridge::bridge {
 
-/// What sensor_msgs/CameraInfo says of the raw image. Binning and region of interest are left out: by its definition
-/// size, K and D are those of the full image, whatever part of it is sent and however it is binned. R and P, which
-/// concern rectified images, are left out as well.
+/// The part of sensor_msgs/CameraInfo that describes the raw image. Binning and region of interest are omitted: by
+/// definition, size, K and D always refer to the full image. R and P concern rectified images and are omitted as well.
 struct CameraInfo {
   std::uint32_t width = 0, height = 0;  ///< pixels
   std::string distortion_model;         ///< empty with no `d`: no distortion
   std::vector<double> d;                ///< OpenCV's coefficients: k1 k2 p1 p2 [k3 [k4 k5 k6]]
-  std::array<double, 9> k{};            ///< row after row, pixels
+  std::array<double, 9> k{};            ///< row-major, pixels
 };
 
 /// What is wrong with a CameraInfo.
 enum class InfoReason : std::uint8_t {
-  no_size,        ///< width or height 0, or beyond what trk can hold
+  no_size,        ///< width or height is 0, or larger than trk can hold
   unknown_model,  ///< neither plumb_bob nor rational_polynomial
-  coefficients,   ///< D has another number of them than its model
-  no_lens,        ///< `camera` says why K and D are no lens
+  coefficients,   ///< the size of D does not fit the model
+  no_lens,        ///< K and D are not a valid lens; `camera` is the reason
 };
 
 /// Why a CameraInfo describes no lens.
@@ -36,18 +35,18 @@ struct InfoFault {
   InfoReason reason{};
   camera::CameraReason camera{};
 };
-/// One line for a person.
+/// One line of text for people.
 std::string describe(const InfoFault&);
 
-/// The lens for trk: camera::fit_lens of K and D. Chip and blanks are those of `chip`, the image's size is that of the
-/// CameraInfo. Takes about a tenth of a millisecond: keep the result while same_calibration().
+/// The lens for trk: camera::fit_lens of K and D. Chip size and blanks are taken from `chip`, the image size from the
+/// CameraInfo. Takes about 0.1 ms: keep the result while same_calibration().
 [[nodiscard]] tl::expected<camera::FittedLens, InfoFault> fit_lens(const CameraInfo&,
                                                                    const wire::CameraConstants& chip) noexcept;
 
 /// The lens to draw. camera::image_border() says whether it can be drawn. Errors: no_size, unknown_model, coefficients.
 [[nodiscard]] tl::expected<camera::ViewingLens, InfoFault> viewing_lens(const CameraInfo&);
 
-/// Whether both describe the same lens, number by number.
+/// Whether all numbers that describe the lens are equal.
 [[nodiscard]] bool same_calibration(const CameraInfo&, const CameraInfo&) noexcept;
 
 }  // namespace trk_bridge::bridge

@@ -1,4 +1,4 @@
-// What is to be made of one camera's records.
+// Options of one camera.
 #pragma once
 
 #include <cstdint>
@@ -11,33 +11,33 @@
 
 namespace trk_bridge::bridge {
 
-/// What a stamp is made of, less the delay.
+/// Where a stamp comes from; the delay is subtracted from it.
 enum class StampMode : std::uint8_t {
   arrival,  ///< Sample::arrival
-  counter,  ///< arrivals without jitter, see CounterClock; arrivals where the counter does not count
-  source,   ///< Sample::sample_time; arrivals where the record has none
+  counter,  ///< arrival without jitter, see CounterClock; Sample::arrival if the counter does not count
+  source,   ///< Sample::sample_time; Sample::arrival if the record has none
 };
 
-/// Hz, of a camera whose rate is not known yet.
+/// Hz, used until the rate of a camera is known.
 inline constexpr double assumed_field_rate = 50;
 
-/// What can be changed while records come. Trivially copyable.
+/// Options that can be changed while records are received. Trivially copyable.
 struct LiveOptions {
-  double delay = 0;  ///< s, taken off every stamp
+  double delay = 0;  ///< s, subtracted from every stamp
   bool publish_tf = true;
   bool publish_camera_info = true;
 };
 
 struct CameraOptions : LiveOptions {
-  /// None: records of every id are this camera's; then its source must serve this camera alone.
+  /// None: records with any id belong to this camera; then its source must serve no other camera.
   std::optional<std::uint32_t> id;
-  /// FormatBit mask of published parameters; none: they stay in the sender's format.
+  /// FormatBit mask of published parameters; none: the sender's format is kept.
   std::optional<std::uint32_t> format = wire::euler;
   StampMode stamp = StampMode::arrival;
-  std::optional<wire::CameraConstants> constants;  ///< until the sender's own ones come
+  std::optional<wire::CameraConstants> constants;  ///< used until the sender's constants arrive
   base::CounterUse counter = base::CounterUse::automatic;
-  double failover = 0.5;  ///< s of silence after which another sender may follow; see SenderLock
-  /// px, the error up to which a CameraInfo is of model plumb_bob; infinite: always.
+  double failover = 0.5;  ///< s of silence after which another sender is accepted; see SenderLock
+  /// px, the largest error with which a CameraInfo uses the model plumb_bob; infinite: always.
   double plumb_bob_tolerance = camera::plumb_bob_tolerance;
 };
 

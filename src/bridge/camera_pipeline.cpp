@@ -56,7 +56,7 @@ CameraUpdate CameraPipeline::process(const transport::Sample& sample, std::int64
 }
 
 CameraUpdate CameraPipeline::begin(const transport::Sample& sample, std::int64_t now) noexcept {
-  // std::visit would do, but can throw as far as a compiler knows.
+  // std::visit is not used because the compiler assumes that it can throw.
   if (const auto* params = std::get_if<wire::CameraParams>(&sample.record)) return begin(*params, sample, now);
   return begin(*std::get_if<wire::CameraConstants>(&sample.record), sample, now);
 }

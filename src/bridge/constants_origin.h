@@ -1,4 +1,4 @@
-// Where the constants in use come from.
+// The origin of the constants in use.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@ namespace trk_bridge::bridge {
 enum class ConstantsOrigin : std::uint8_t {
   none,
   parameter,
-  any_camera,  ///< received with id 0, which serve every camera of the source
-  own,         ///< received with the camera's id, or with any where it has none
+  any_camera,  ///< received with id 0, valid for every camera of the source
+  own,         ///< received with the camera's id, or with any id if the camera has none
 };
 
 }  // namespace trk_bridge::bridge

@@ -12,31 +12,32 @@ namespace {
 // All times in ns.
 constexpr double millisecond = 1e6, second = 1e9;
 
-constexpr double memory = 30 * second;  // of the line
+constexpr double memory = 30 * second;  // of the fitted line
 constexpr double jitter_memory = 120 * second;
 constexpr double recent = 2 * second;           // of recent_error_, recent_outliers_
 constexpr double closes_gap_in = 1.5 * second;  // time constant
 constexpr double hand_over = 2 * second;        // from arrivals to the line
 constexpr double offset_settles_in = 1 * second;
-constexpr double settles_in = 10 * second;  // after a step; one more to the same side before that is a wrong rate
+constexpr double settles_in =
+    10 * second;  // after a step; another step in the same direction before that means a wrong rate
 constexpr double least_samples = 16;
 constexpr double most_jitter = 0.5;  // of an interval
 constexpr double least_interval = 1e3;
 
 // In standard deviations of the jitter.
-constexpr double edge = 3.3;  // a normal arrival is earlier once in 2000
+constexpr double edge = 3.3;  // 1 of 2000 normally distributed arrivals is earlier
 constexpr double outlier = 5, least_outlier = 0.2 * millisecond;
 constexpr double visible_step = 0.6, least_step = 0.05 * millisecond;
-/// In standard deviations of the mean of the last seconds.
+/// In standard deviations of the mean over the last seconds.
 constexpr double visible_means = 8;
-/// What an outlier counts for in that mean, as a share of outlier.
+/// Outliers are clipped to this share of `outlier` in that mean.
 constexpr double recent_clip = 0.6;
-/// Standard over mean absolute deviation of what is normally distributed.
+/// Standard deviation over mean absolute deviation of a normal distribution.
 constexpr double to_sigma = 1.2533;
 
-/// More than this share of outliers is another jitter.
+/// A larger share of outliers means that the jitter has changed.
 constexpr double most_outliers = 0.4;
-/// Late ones for longer than this are a step: a stall ends in a burst. Early ones are one at once.
+/// Late samples for longer than this are a step, because a stall ends in a burst. Early samples are a step at once.
 constexpr double longest_run = 0.3 * second;
 constexpr double least_run = 8;  // samples
 
@@ -115,7 +116,7 @@ void CounterClock::follow(double counts, double elapsed) noexcept {
   note(error, counts, elapsed, is_outlier);
   if (!is_outlier) correct(error, counts);
   if (has_stepped()) return step();
-  if (to_sigma * deviation_ > most_jitter * interval_) {  // these samples have no rhythm
+  if (to_sigma * deviation_ > most_jitter * interval_) {  // the samples have no rhythm
     age_ = 0;
     statistics_.learned = false;
   }
@@ -125,7 +126,7 @@ void CounterClock::follow(double counts, double elapsed) noexcept {
   }
 }
 
-/// Of what was learned the interval may still be right.
+/// Keeps the interval, which may still be right.
 void CounterClock::resume() noexcept {
   move_line(-line_, 1);
   gap_ = 0;
@@ -143,7 +144,7 @@ void CounterClock::note(double error, double counts, double elapsed, bool is_out
 
   const double weight = std::min(1.0, passed / recent);
   recent_outliers_ += ((is_outlier ? 1.0 : 0.0) - recent_outliers_) * weight;
-  // What a stall held back comes at once when it ends, and says nothing of the path's delay.
+  // Samples that a stall held back arrive together when it ends. They do not show the delay of the path.
   const bool was_held_back = is_outlier && elapsed < passed / 2;
   if (samples_ >= least_samples && since_step_ > offset_settles_in && !was_held_back) {
     const double most = gate() * recent_clip;
@@ -167,7 +168,7 @@ void CounterClock::note(double error, double counts, double elapsed, bool is_out
   if (is_outlier && !another_jitter) return;
   const double most = another_jitter ? 4 * least_samples : jitter_memory / interval_;
   deviations_ = std::min(deviations_ + 1, std::max(most, least_samples));
-  // One sample ahead, a line through k samples has the larger error.
+  // The prediction error of a line through k samples, one sample ahead, is larger than the error of a sample.
   const double k = samples_;
   const double of_line = samples_ < least_samples ? std::abs(error) : std::abs(clipped);
   deviation_ += (of_line / std::sqrt(1 + (4 * k + 2) / (k * (k - 1))) - deviation_) / deviations_;
@@ -195,7 +196,7 @@ bool CounterClock::has_stepped() const noexcept {
   if (is_long_run()) return true;
   const double sigma = to_sigma * deviation_;
   const double sigma_of_mean = sigma * std::sqrt(interval_ / (2 * recent));
-  // Jitter that changes the order of samples makes the errors of those in order depend on each other.
+  // If jitter reorders samples, the errors of the remaining samples are correlated.
   const double of_order = sigma * sigma / interval_;
   const double visible = std::max({visible_step * sigma, visible_means * sigma_of_mean, of_order, least_step});
   return samples_ >= 2 * least_samples && age_ > second && std::abs(recent_error_) > visible;
@@ -213,7 +214,7 @@ void CounterClock::step() noexcept {
     return;
   }
   if (since_step_ < settles_in && (statistics_.last_step > 0) == (by > 0)) {
-    --statistics_.steps;  // it was none
+    --statistics_.steps;  // it was not a step
     ++statistics_.rate_changes;
     return begin();
   }

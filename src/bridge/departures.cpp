@@ -11,7 +11,7 @@ namespace {
 
 bool is_timed(const OutputTiming& timing) noexcept { return timing.delay != transport::Delay{} || timing.lead != 0; }
 
-/// What is late waits for a sample, and what is done looks whether there is something else to do.
+/// ns; upper limit of one wait of the timer thread.
 constexpr std::int64_t longest_wait = 1'000'000'000;
 
 }  // namespace
@@ -25,7 +25,7 @@ Departures::Departures(DepartureOptions options, std::vector<Destination> destin
     timings_.push_back(timing);
   }
   if (paced_.empty()) return;
-  // Parameters that come and those that are due, and constants.
+  // Parameters that pass unchanged, parameters that are due, and constants.
   ready_.reserve(3 * paced_.size() * OutletWriter::most_ids);
   thread_ = std::thread([this] { run(); });
 }
@@ -88,7 +88,7 @@ void Departures::write(const wire::CameraParams& params, const transport::Record
     if (camera == nullptr) return;
     const bool was_due = camera->paced.due().has_value();
     const bool is_sound = camera->paced.add(params, time.nanoseconds, lens_time, now, clock).has_value();
-    if (!is_sound) camera->as_it_came.emplace(params, time.nanoseconds);
+    if (!is_sound) camera->unchanged.emplace(params, time.nanoseconds);
     if (was_due && is_sound && !camera->paced.waits(now)) return;
     wakes_ = true;
   }
@@ -137,13 +137,13 @@ void Departures::collect(Camera& camera, std::int64_t now) {
   if (camera.paced.due() && *camera.paced.due() <= now) camera.paced.depart(now, clock);
   for (std::size_t output = 0; output < paced_.size(); ++output) {
     if (camera.new_constants) ready_.push_back({output, *camera.new_constants, 0});
-    if (camera.as_it_came) ready_.push_back({output, camera.as_it_came->first, camera.as_it_came->second});
+    if (camera.unchanged) ready_.push_back({output, camera.unchanged->first, camera.unchanged->second});
     if (const auto departure = camera.paced.take(output, now, clock)) {
       ready_.push_back({output, departure->params, departure->time});
     }
   }
   camera.new_constants.reset();
-  camera.as_it_came.reset();
+  camera.unchanged.reset();
 }
 
 bool Departures::set_timing(std::size_t destination, const OutputTiming& timing) {

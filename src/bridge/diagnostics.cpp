@@ -11,7 +11,7 @@ namespace {
 
 using transport::SourceState;
 
-/// Whole seconds that TAI is ahead of UTC, since 2017.
+/// s that TAI is ahead of UTC, since 2017.
 constexpr long long tai_ahead = 37;
 
 double rate_of(const CameraReport& now, const CameraReport& before) {
@@ -90,7 +90,7 @@ std::string camera_info_text(const CameraStatistics& camera) {
   return "no";
 }
 
-/// Before the first parameters of this camera.
+/// The state before the first parameters of this camera.
 Finding silence(const CameraReport& now, const CameraOptions& options) {
   switch (now.source.state) {
     case SourceState::waiting:

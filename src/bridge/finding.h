@@ -1,4 +1,4 @@
-// Something that a person should know: what it is about, how bad it is, and the words.
+// Something that people should know: its kind, its level and a text.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace trk_bridge::bridge {
 
-/// What a finding is about, so that the log shows each once.
+/// The kind of a finding. The log shows each kind once.
 enum class Condition : std::uint8_t {
   // of trk_to_ros
   receiving,
@@ -50,7 +50,7 @@ enum class Condition : std::uint8_t {
   clock_stepped,
   // of both
   lens_inexact,
-  // of ros_to_trk, which shares some more of those above
+  // of ros_to_trk, which also uses some of those above
   sending,
   id_left_out,
   bad_camera_info,
@@ -67,7 +67,7 @@ enum class Condition : std::uint8_t {
   sink_too_slow,
   queue_drops,
   delay_too_short,
-  // of trk monitor, which shares most of trk_to_ros
+  // of trk monitor, which also uses most of those of trk_to_ros
   other_interface,
   time_code_counter,
   bursts,
@@ -80,16 +80,16 @@ enum class Condition : std::uint8_t {
   master_forgot,
 };
 
-/// A condition that holds, and a line for a person.
+/// A condition that holds, and a line of text for people.
 struct Finding {
   Condition condition;
   Level level;
   std::string text;
-  /// An event: the log shows each, and not just the first of its kind.
+  /// An event: the log shows each one, not only the first of its kind.
   bool is_event = false;
 };
 
-/// Adds one that a person should look into.
+/// Adds a finding with Level::warn.
 void warn(std::vector<Finding>& found, Condition condition, std::string text);
 
 /// The worst level and all texts, joined.

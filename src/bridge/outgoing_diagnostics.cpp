@@ -13,13 +13,13 @@ namespace {
 
 Finding sending(double rate) { return {Condition::sending, Level::ok, "sending at " + two_decimals(rate) + " Hz"}; }
 
-/// How many sets an input has given to the sinks.
+/// Sets that an input has passed to the sinks.
 struct Sets {
   std::uint64_t count = 0;
   std::int64_t last = 0;
 };
 
-/// Nothing is sent, and why.
+/// The finding that nothing is sent.
 Finding nothing_sent(const Sets& sets, std::int64_t now, const std::string& why) {
   if (sets.count == 0) return {Condition::waiting, Level::stale, "nothing sent yet: " + why};
   return {Condition::nothing_new, Level::warn,
@@ -40,7 +40,7 @@ Finding state(const TfReport& now, const TfReport& before, double rate) {
   if (!now.pose_fault.empty()) return nothing_sent(sets, now.time, "tf: " + now.pose_fault);
   if (now.tf.infos == 0) return nothing_sent(sets, now.time, "no camera_info yet on " + now.info_topic);
   if (now.tf.info_is_refused) {
-    // The log shows a condition once: this one is not lost behind the waiting before it.
+    // The log shows a condition once: a condition of its own is logged although `waiting` was logged before.
     auto refused = nothing_sent(sets, now.time, "camera_info is refused: " + describe(now.tf.info_fault));
     refused.condition = Condition::bad_camera_info;
     return refused;
@@ -86,7 +86,7 @@ void add_lens_findings(std::vector<Finding>& found, const TfReport& now, const T
   }
 }
 
-/// Whether sets go out whole; none where none were written because of what else is found.
+/// Whether sets are sent completely; none if another finding explains why nothing was written.
 std::optional<Finding> state(const SinkReport& now, const SinkReport& before) {
   const auto& sink = now.sink;
   if (now.queue && now.queue->failed) {
@@ -116,7 +116,7 @@ std::optional<Finding> state(const SinkReport& now, const SinkReport& before) {
   return Finding{Condition::waiting, Level::ok, now.state.is_open ? "open, nothing written yet" : "is being opened"};
 }
 
-/// Between two looks.
+/// Between two reports.
 struct Timing {
   Timing(const DepartureStatistics& now, const DepartureStatistics& before)
       : departures(now.departures - before.departures),
@@ -146,7 +146,7 @@ std::string delay_text(const transport::Delay& delay) {
 void add_timing_findings(std::vector<Finding>& found, const SinkReport& now, const SinkReport& before) {
   if (!now.departures || !now.form.is_timed() || !now.form.delay || *now.form.delay == transport::Delay{}) return;
   const Timing timing(*now.departures, before.departures.value_or(DepartureStatistics{}));
-  // Of a lost sample now and then nothing is seen.
+  // An occasional lost sample is not visible.
   if (timing.negative * 20 <= timing.departures) return;
   warn(found, Condition::delay_too_short,
        std::to_string(timing.negative) + " of " + std::to_string(timing.departures) +

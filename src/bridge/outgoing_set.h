@@ -1,4 +1,4 @@
-// What an input of ros_to_trk gives to every outlet.
+// What an input of ros_to_trk passes to every outlet.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,12 @@
 
 namespace trk_bridge::bridge {
 
-/// One set of parameters, and before it the camera's constants where these are new or the id is another one. Both have
-/// the same id.
+/// One set of parameters, preceded by the camera's constants if they or the id changed. Both have the same id.
 struct OutgoingSet {
   std::optional<wire::CameraConstants> constants;
   wire::CameraParams params;
-  std::int64_t time = 0;       ///< when they were true, ns since 1970 UTC; 0: unknown
-  std::int64_t lens_time = 0;  ///< likewise of the lens; 0: as the rest
+  std::int64_t time = 0;       ///< time of the parameters, ns since 1970 UTC; 0: unknown
+  std::int64_t lens_time = 0;  ///< time of the lens; 0: same as `time`
 };
 
 }  // namespace trk_bridge::bridge

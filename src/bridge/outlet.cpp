@@ -24,13 +24,14 @@ using transport::SinkFault;
 using transport::SinkReason;
 using transport::Written;
 
-/// More than the 200 ms that a half-made segment is waited for, up to 250 sets a second; older sets are of no use.
+/// Covers the 200 ms of waiting for a half-created segment at up to 250 sets a second; older sets are of no use.
 constexpr std::size_t attaching_capacity = 64;
-/// A disk that wakes up or a share that reconnects takes seconds: 10 s at 1000 sets a second, 200 s at 50. 3 MB.
+/// A disk that spins up or a network share that reconnects takes seconds: 10 s at 1000 sets a second, 200 s at 50. 3
+/// MB.
 constexpr std::size_t storage_capacity = 10'000;
-/// How often a sink that cannot be opened is tried again.
+/// How often opening a sink is tried again.
 constexpr std::chrono::seconds retry_period{1};
-/// How often the end is looked for.
+/// How often close() checks whether the thread has ended.
 constexpr milliseconds look_period{20};
 
 WhenFull when_full(Blocking blocking, bool caller_can_wait) noexcept {
@@ -38,7 +39,7 @@ WhenFull when_full(Blocking blocking, bool caller_can_wait) noexcept {
   return blocking == Blocking::storage ? WhenFull::fail : WhenFull::drop_oldest;
 }
 
-/// What a push cost; none where it cost nothing.
+/// What was lost by a push; none if nothing was.
 std::optional<OutletReason> loss_of(Pushed pushed) noexcept {
   switch (pushed) {
     case Pushed::queued:
@@ -53,8 +54,8 @@ std::optional<OutletReason> loss_of(Pushed pushed) noexcept {
   return std::nullopt;
 }
 
-/// A nodelet's libraries are unloaded with it, and an abandoned thread still runs code of them: that which has this
-/// address is not unloaded any more, nor are those that it needs.
+/// Prevents the library with this address, and those that it depends on, from being unloaded. The libraries of a
+/// nodelet are unloaded with it while an abandoned thread still runs their code.
 void keep_library_of(const void* address) noexcept {
   Dl_info library{};
   if (::dladdr(address, &library) == 0 || library.dli_fname == nullptr) return;
@@ -63,12 +64,12 @@ void keep_library_of(const void* address) noexcept {
 
 }  // namespace
 
-/// What an outlet and its thread share.
+/// State shared by an outlet and its thread.
 class Outlet::Work {
  public:
   Work(const transport::SinkEndpoint& endpoint, const transport::SinkForm& form, const OutletOptions& options)
       : listener_(options.listener),
-        writer_(endpoint.open(), form, options.feed, [this](const Loss& loss) { tell(loss); }) {
+        writer_(endpoint.open(), form, options.feed, [this](const Loss& loss) { report(loss); }) {
     if (options.must_open || endpoint.blocking == Blocking::never) {
       writer_.prepare();
       is_open_ = true;
@@ -81,17 +82,17 @@ class Outlet::Work {
   OutletWriter& writer() noexcept { return writer_; }
   std::optional<OutletQueue>& queue() noexcept { return queue_; }
 
-  void tell(const Loss& loss) {
+  void report(const Loss& loss) {
     const std::lock_guard<std::mutex> lock(listener_mutex_);
     if (listener_) listener_(loss);
   }
-  /// From now on nobody is called.
+  /// The listener is not called any more.
   void drop_listener() {
     const std::lock_guard<std::mutex> lock(listener_mutex_);
     listener_ = nullptr;
   }
 
-  /// The thread's.
+  /// The main function of the thread.
   void run();
 
   /// Whether the thread has ended within `wait`.
@@ -99,7 +100,7 @@ class Outlet::Work {
     std::unique_lock<std::mutex> lock(mutex_);
     return ended_.wait_for(lock, wait, [this] { return closed_.has_value(); });
   }
-  /// Once it has ended.
+  /// The result of closing. Call only after has_ended().
   Written closed() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return *closed_;
@@ -115,7 +116,7 @@ class Outlet::Work {
   }
 
  private:
-  /// Something that may take long.
+  /// Runs an action that may take long.
   template <typename Action>
   void step(const Action& action) {
     busy_since_.store(base::steady_now());
@@ -139,7 +140,7 @@ class Outlet::Work {
   OutletWriter writer_;
   std::optional<OutletQueue> queue_;
   std::atomic<std::int64_t> busy_since_{0};
-  std::atomic<bool> has_record_{false};  // that is not in the queue any more
+  std::atomic<bool> has_record_{false};  // one that has left the queue
 
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable ended_;
@@ -182,7 +183,7 @@ void Outlet::Work::run() {
       if (!is_good && !written.fails && written.sent.params > 0) note_open(true, {});
       is_good = is_in_order();
     }
-    // One that refuses what is written is opened again, too: that says why, better than a write can.
+    // A sink that refuses writes is opened again, too: the error of opening is more specific than that of writing.
     if (const auto now = std::chrono::steady_clock::now(); !is_good && now >= next_attempt) {
       next_attempt = now + retry_period;
       try_to_open();
@@ -211,10 +212,10 @@ Outlet::~Outlet() { static_cast<void>(close()); }
 
 template <typename Record, typename... Time>
 void Outlet::pass(const Record& record, const Time&... time) {
-  if (is_abandoned_) return work_->tell({record.id, SinkFault{SinkReason::no_answer}});
-  // Once it is closed, the sink says so.
+  if (is_abandoned_) return work_->report({record.id, SinkFault{SinkReason::no_answer}});
+  // After close(), the sink reports that it is closed.
   if (!thread_.joinable()) return work_->writer().write(record, time...);
-  if (const auto reason = loss_of(work_->queue()->push(record, time...))) work_->tell({record.id, *reason});
+  if (const auto reason = loss_of(work_->queue()->push(record, time...))) work_->report({record.id, *reason});
 }
 
 void Outlet::write(const wire::CameraConstants& constants) { pass(constants); }

@@ -1,4 +1,4 @@
-// One sink as a program uses it: records in, and no other sink waits for this one.
+// One sink of a program. A slow sink does not delay the others.
 #pragma once
 
 #include <chrono>
@@ -14,37 +14,36 @@
 
 namespace trk_bridge::bridge {
 
-/// How a program uses a sink.
 struct OutletOptions {
-  transport::SinkForm defaults;  ///< for what the endpoint does not say
+  transport::SinkForm defaults;  ///< for options that the endpoint does not set
   Feed feed = Feed::passed_on;
-  /// Where given, what comes is not live: where there is no room, write() waits for it, and the end of the sink is
-  /// waited for, for as long as this says. Any thread calls it.
+  /// If set, the records are not live: write() waits for room in the queue, and close() for the sink, as long as this
+  /// returns true. Called by any thread.
   std::function<bool()> may_wait;
-  /// The constructor opens the sink, and throws where it cannot be opened.
+  /// The constructor opens the sink, and throws if it cannot be opened.
   bool must_open = false;
-  LossListener listener;  ///< called in the caller's thread and in the outlet's own, one at a time
+  LossListener listener;  ///< called in the caller's thread and in that of the outlet, one at a time
 };
 
-/// What an outlet does, for a person.
+/// The state of an outlet, for people.
 struct OutletState {
-  std::string name;             ///< Sink::name
-  std::string notice;           ///< Sink::notice
-  bool is_open = false;         ///< it was opened, or records went out
-  std::string cannot_open;      ///< why the last attempt failed; empty: it did not
-  std::int64_t busy_since = 0;  ///< steady clock, ns: since when it opens, writes or closes; 0: it waits for records
+  std::string name;         ///< Sink::name
+  std::string notice;       ///< Sink::notice
+  bool is_open = false;     ///< it was opened, or records were written
+  std::string cannot_open;  ///< why the last attempt to open failed; empty: it did not fail
+  std::int64_t busy_since =
+      0;  ///< steady clock, ns: start of the current open, write or close; 0: it waits for records
 };
 
-/// A sink whose writes never wait is written in the caller's thread. The others have a thread and a queue of their own,
-/// in which they are opened, too: again every second for as long as that fails. While it attaches to shared memory, the
-/// oldest sets are dropped; storage that does not keep up ends the recording.
-///
-/// write(), finish() and close() are for one thread at a time, the rest for any.
+/// A sink whose writes never block is written in the caller's thread. Every other sink has a queue and a thread, which
+/// also opens it and retries every second while that fails. While shared memory is being attached, the oldest sets are
+/// dropped; if storage does not keep up, the recording ends.
+/// write(), finish() and close() may be called by one thread at a time, the other functions by any.
 class Outlet {
  public:
-  /// Throws TransportError: that of the endpoint, and with OutletOptions::must_open that of Sink::prepare.
+  /// Throws the TransportError of the endpoint, and with OutletOptions::must_open that of Sink::prepare.
   Outlet(const transport::SinkEndpoint&, const OutletOptions&);
-  /// As close(), without result.
+  /// Calls close() and ignores the result.
   ~Outlet();
   Outlet(const Outlet&) = delete;
   Outlet& operator=(const Outlet&) = delete;
@@ -53,25 +52,26 @@ class Outlet {
   void write(const wire::CameraConstants&);
   void write(const wire::CameraParams&, const transport::RecordTime& time = {});
   void write(const wire::Record&, const transport::RecordTime& time = {});
-  /// From now on nothing is taken. Does not wait: several outlets that are to be closed end at the same time.
+  /// Accepts no more records. Does not wait, so that several outlets can finish at the same time before they are
+  /// closed.
   void finish();
-  /// Writes what is queued, then ends the sink in order. Where a recording's open, write or close, or all that is left
-  /// to do for a segment, takes longer than `patience` (and OutletOptions::may_wait does not say otherwise), it is left
-  /// to itself: no_answer, and unwritten() says how much is missing. Its thread goes on for as long as the program
-  /// runs, and calls nobody. Closing again does nothing.
+  /// Writes what is queued, then closes the sink. If one open, write or close of a recording, or all remaining work on
+  /// a segment, takes longer than `patience` (and OutletOptions::may_wait does not extend it), the thread is abandoned:
+  /// the result is no_answer, and unwritten() is the number of missing records. The abandoned thread runs on until the
+  /// program ends, and does not call the listener. Closing again does nothing.
   [[nodiscard]] transport::Written close();
 
   OutletStatistics statistics() const noexcept;
   OutletState state() const;
-  /// None where there is no queue.
+  /// None if there is no queue.
   std::optional<OutletQueueStatistics> queue() const;
-  /// Records that were taken, and have not been written yet.
+  /// Records that were accepted but are not written yet.
   std::uint64_t unwritten() const;
 
   const std::string& url() const noexcept { return url_; }
-  /// As a person reads it: Sink::name.
+  /// Sink::name, for people.
   std::string name() const;
-  /// With the defaults filled in.
+  /// The form of the endpoint with the defaults.
   const transport::SinkForm& form() const noexcept { return form_; }
 
   static constexpr std::chrono::milliseconds patience{500};
@@ -89,7 +89,7 @@ class Outlet {
   const bool every_set_counts_;
   const std::shared_ptr<Work> work_;  // the thread may outlive the outlet
   std::thread thread_;
-  std::int64_t finished_ = 0;  // steady clock, ns: when it was asked to end; 0: it was not
+  std::int64_t finished_ = 0;  // steady clock, ns: when finish() was called; 0: it was not
   bool is_abandoned_ = false;
 };
 

@@ -9,7 +9,7 @@
 namespace trk_bridge::bridge {
 namespace {
 
-/// How often who waits for room asks whether it may go on waiting.
+/// How often push() calls may_wait() while it waits for room.
 constexpr std::chrono::milliseconds ask_period{50};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Records on their way from the thread that has them to the one that writes them, bounded.
+// A bounded queue of records between the thread that produces them and the thread that writes them.
 #pragma once
 
 #include <chrono>
@@ -15,47 +15,47 @@
 
 namespace trk_bridge::bridge {
 
-/// What becomes of a record when there is no room for it.
+/// What happens when the queue is full.
 enum class WhenFull : std::uint8_t {
-  drop_oldest,  ///< the oldest parameters make room; of constants, the newest of every id stay
-  fail,         ///< the queue ends: it takes no record any more, those that it has stay
-  wait,         ///< push() waits for room, for as long as may_wait() says
+  drop_oldest,  ///< drops the oldest parameters; keeps the newest constants of every id
+  fail,         ///< the queue accepts no more records; those in it stay
+  wait,         ///< push() waits for room while may_wait() returns true
 };
 
-/// What became of a record that was pushed.
+/// The result of a push.
 enum class Pushed : std::uint8_t {
   queued,
-  made_room,       ///< queued, and older parameters dropped for it
-  lost_constants,  ///< queued, and older constants dropped for it: those of OutletWriter::most_ids ids are kept
+  made_room,       ///< queued; older parameters were dropped for it
+  lost_constants,  ///< queued; older constants were dropped for it, because constants of OutletWriter::most_ids ids are
+                   ///< kept already
   refused,         ///< the queue has failed or is closed
 };
 
-/// One that is on its way.
 struct QueuedRecord {
   wire::Record record;
   transport::RecordTime time;
 };
 
-/// What a queue holds and has lost. Trivially copyable.
+/// Trivially copyable.
 struct OutletQueueStatistics {
-  std::uint64_t queued = 0;  ///< records that wait now
+  std::uint64_t queued = 0;  ///< records in the queue now
   std::uint64_t drops = 0;   ///< records that were dropped or refused
-  bool failed = false;       ///< with WhenFull::fail: it was full once
+  bool failed = false;       ///< with WhenFull::fail: it has been full
 };
 
-/// In order. One thread pushes, one pops; statistics() is for any. The lock is held for as long as it takes to copy a
-/// record. Allocates when it is made, and never again.
+/// Keeps the order. One thread pushes, one pops; any thread may call statistics(). The lock is held only while a record
+/// is copied. Allocates only in the constructor.
 class OutletQueue {
  public:
-  /// `capacity` is in records, and more than 0. `may_wait` is for WhenFull::wait, and asked again and again.
+  /// `capacity` is in records, and more than 0. `may_wait` is for WhenFull::wait; it is called repeatedly.
   OutletQueue(std::size_t capacity, WhenFull, std::function<bool()> may_wait = {});
 
   [[nodiscard]] Pushed push(const wire::Record&, const transport::RecordTime& time = {});
   /// The oldest record; waits for one. None once the queue is closed and empty.
   [[nodiscard]] std::optional<QueuedRecord> pop();
-  /// Likewise; none, too, when none has come for so long.
+  /// The same with a timeout: none if no record arrives within `wait`.
   [[nodiscard]] std::optional<QueuedRecord> pop(std::chrono::nanoseconds wait);
-  /// From now on nothing is taken. What is queued can still be popped.
+  /// Accepts no more records. Queued records can still be popped.
   void close();
   /// Closed and empty.
   bool is_over() const;
@@ -65,18 +65,18 @@ class OutletQueue {
  private:
   std::size_t size() const noexcept { return kept_constants_.size() + count_; }
   QueuedRecord take_front();
-  /// The oldest of what is queued, if anything is.
+  /// The oldest queued record, if any.
   std::optional<QueuedRecord> take(std::unique_lock<std::mutex>&);
-  /// Room for one record, and what that cost.
+  /// Makes room for one record; returns what was dropped for it.
   Pushed make_room();
-  /// False where those of too many ids are kept.
+  /// False if constants of too many ids are kept already.
   bool keep(const wire::CameraConstants&);
 
   const WhenFull when_full_;
   const std::function<bool()> may_wait_;
   mutable std::mutex mutex_;
   std::condition_variable has_record_, has_room_;
-  std::vector<wire::CameraConstants> kept_constants_;  // the oldest first, all older than ring_, an id once
+  std::vector<wire::CameraConstants> kept_constants_;  // oldest first, all older than ring_, each id once
   std::vector<QueuedRecord> ring_;
   std::size_t front_ = 0, count_ = 0;  // of ring_
   std::uint64_t drops_ = 0;

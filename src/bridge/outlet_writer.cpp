@@ -54,7 +54,7 @@ void OutletWriter::write(const wire::CameraConstants& constants) {
 void OutletWriter::write_unsound(const wire::CameraConstants& constants, CameraReason reason) {
   if (auto* camera = find(constants.id)) *camera = Camera{without_constants_, {}};
   if (form_.format) return refuse(constants, reason);
-  // Nobody asked for a conversion: what they are worth is up to the receiver. A fault has been reported.
+  // No conversion was requested: the receiver decides what to do with them. put() reports a fault.
   static_cast<void>(put(constants));
 }
 
@@ -72,7 +72,7 @@ void OutletWriter::write(const wire::CameraParams& params, const transport::Reco
     statistics_.fails = !constants_written || !params_written;
     if (statistics_.fails) {
       ++statistics_.failed_sets;
-      // A file without constants takes no parameters: why it has none is the cause.
+      // A file without constants accepts no parameters: the fault of the constants is the cause.
       statistics_.last_fault = constants_written ? params_written.error() : constants_written.error();
       statistics_.last_failure = now;
     }
@@ -102,7 +102,7 @@ std::optional<wire::CameraParams> OutletWriter::converted(const wire::CameraPara
 transport::Written OutletWriter::constants_before_set(Camera* camera) {
   if (camera == nullptr) return {};
   if (camera->retries) camera->constants_written = put(*camera->converter.outgoing());
-  // A first attempt just before this set is not repeated at once.
+  // If the first attempt was made just before this set, it is not repeated at once.
   camera->retries = !camera->constants_written;
   return camera->constants_written;
 }

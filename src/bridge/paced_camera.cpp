@@ -21,7 +21,7 @@ PartTimes not_before(const PartTimes& times, const PartTimes& others) noexcept {
           std::max(times.lens, others.lens)};
 }
 
-/// Of the parts that have a delay, where one has: the others are wanted as new as they are.
+/// If any part has a delay, only parts with a delay count: the others are sent as new as possible.
 std::int64_t least_margin(const PartTimes& margins, const transport::Delay& delay) noexcept {
   const bool all = delay == transport::Delay{};
   std::int64_t least = std::numeric_limits<std::int64_t>::max();
@@ -94,7 +94,7 @@ void PacedCamera::depart(std::int64_t now, std::int64_t clock) noexcept {
 }
 
 bool PacedCamera::waits(std::int64_t now) const noexcept {
-  // What comes later is left to the next departure, which is just behind it: else it would be early for good.
+  // A later sample waits for the next departure, which follows soon; otherwise all later ones would be too early.
   const bool is_late = static_cast<double>(now - departure_) > 0.7 * rhythm_.period();
   return !is_late && std::any_of(outputs_.begin(), outputs_.end(), [](const Output& output) { return output.is_due; });
 }
@@ -115,7 +115,7 @@ std::optional<PacedCamera::Departure> PacedCamera::take(std::size_t index, std::
   if (!found) return std::nullopt;
   if (output.last && is_same(found->times, *output.last)) return std::nullopt;
   auto params = camera::encode_relative(found->camera, newest_.format);
-  // Numbers that only extrapolation has made are no reason to send nothing.
+  // If extrapolation gives invalid numbers, the newest sample is sent instead of nothing.
   if (!params) params = newest_;
   output.is_due = false;
   output.last = found->times;

@@ -1,4 +1,4 @@
-// One camera whose samples go out at an even rhythm, each as it is a delay before its departure.
+// One camera that is sent at an even rhythm, each time as it was one delay ago.
 #pragma once
 
 #include <cstdint>
@@ -12,59 +12,61 @@
 
 namespace trk_bridge::bridge {
 
-/// Of when one output of a camera is.
+/// Delay and lead of one output of a camera.
 struct OutputTiming {
   transport::Delay delay;
   std::int64_t lead = 0;  ///< ns
 };
 
-/// Of one output. Trivially copyable. Sums are over what was sent; the difference of two looks gives means.
+/// Of one output. Trivially copyable. Sums are over everything that was sent; differences of two reports give means.
 struct DepartureStatistics {
   std::uint64_t sent = 0;
   std::int64_t last_sent = 0;    ///< steady clock, ns; valid once sent > 0
-  std::int64_t last_time = 0;    ///< what was sent is of this time, as its samples say it; 0: not known
-  double age_sum = 0;            ///< ns: how long before its departure a camera was where it is sent
-  std::uint64_t departures = 0;  ///< that were due while samples came
-  std::uint64_t negative = 0;    ///< of them, those whose samples were not there yet: the newest were not new enough
-  double margin_sum = 0;         ///< fields, over departures: how far the newest samples are ahead of what is sent
-  std::uint64_t left_out = 0;    ///< samples: duplicates and late ones whose times say that they are new
+  std::int64_t last_time = 0;    ///< the time of what was sent, by the clock of the samples; 0: not known
+  double age_sum = 0;            ///< ns: sum of the ages at departure
+  std::uint64_t departures = 0;  ///< departures that were due while samples arrived
+  std::uint64_t negative = 0;    ///< those of `departures` for which the newest samples were too old
+  double margin_sum = 0;         ///< fields, sum over departures: how far the newest samples are ahead of the sent time
+  std::uint64_t left_out = 0;    ///< ignored samples: duplicates and late ones by counter, although their time is new
 };
 
-/// Nothing here knows a clock: `now` is the steady clock, `clock` the one that samples' times are of, both in ns. Where
-/// these times are more than 1 s off that clock, a sample counts as just taken, and the others by their distance.
-/// Not synchronised. Allocates nothing after its construction.
+/// Reads no clock: `now` is the steady clock, `clock` the clock of the samples' times, both in ns. If the samples'
+/// times differ from that clock by more than 1 s, a sample counts as just taken, and later ones are placed relative to
+/// it. Not synchronised. Does not allocate after construction.
 class PacedCamera {
  public:
   /// A record for one output.
   struct Departure {
     wire::CameraParams params;
-    std::int64_t time;  ///< as samples' times are
+    std::int64_t time;  ///< by the clock of the samples
   };
 
-  /// `rate` as in PhaseLock.
+  /// `rate`: see PhaseLock.
   PacedCamera(std::optional<double> rate, const std::vector<OutputTiming>& outputs);
 
-  /// Takes a sample. `time` is when it was true, 0: now; `lens_time` likewise for its lens, 0: the same. What was
-  /// before is forgotten when times jump by more than 1 s, and when the format is another one. A duplicate, or a late
-  /// one by its counter, is left out where its time (an arrival) says that it is new. The error is why a
-  /// record cannot be interpolated: nothing is changed by it but the rhythm.
+  /// Adds a sample. `time` is its time (0: now), `lens_time` that of its lens (0: same as `time`). Older samples are
+  /// discarded when times jump by more than 1 s, or when the format changes. A duplicate or late sample by counter is
+  /// ignored if its time (an arrival) is new. Returns an error if the record cannot be interpolated: then only the
+  /// rhythm is updated.
   camera::Result<void> add(const wire::CameraParams&, std::int64_t time, std::int64_t lens_time, std::int64_t now,
                            std::int64_t clock) noexcept;
-  /// The constants are others: what was before is not interpolated with what comes.
+  /// The constants changed: older samples are not interpolated with newer ones.
   void start_over() noexcept { history_.clear(); }
 
-  /// When the next departure is due; none before that is known.
+  /// When the next departure is due; none until that is known.
   std::optional<std::int64_t> due() const noexcept { return due_; }
-  /// At a departure that is due, and from then on for every output, until it gives something.
+  /// Call at a departure that is due. From then on take() may return a record, once for every output.
   void depart(std::int64_t now, std::int64_t clock) noexcept;
-  /// Whether an output has not got what was due: then a sample that arrives is for now, and not for the next departure.
+  /// Whether an output still waits for a record that was due: then a sample that arrives is sent now, not at the next
+  /// departure.
   bool waits(std::int64_t now) const noexcept;
-  /// What is to be sent now to an output; none where nothing is due, or nothing newer is there than it has got. The
-  /// times of what an output gets never go back, but where the samples' do by more than 1 s. The counter goes up by one
-  /// with each, from that of the first sample.
+  /// The record to send now to an output; none if nothing is due, or if there is nothing newer than it was sent. The
+  /// times of an output never go back, except when those of the samples go back by more than 1 s. The counter increases
+  /// by one each time, from that of the first sample.
   std::optional<Departure> take(std::size_t output, std::int64_t now, std::int64_t clock) noexcept;
 
-  /// From the next departure on. A longer delay holds an output until what is to be sent is newer than what it has got.
+  /// From the next departure on. After an increase of the delay, nothing is sent until it is newer than what was sent
+  /// last.
   void set_timing(std::size_t output, const OutputTiming& timing) noexcept { outputs_[output].timing = timing; }
 
   DepartureStatistics statistics(std::size_t output) const noexcept;
@@ -82,10 +84,10 @@ class PacedCamera {
   PhaseLock rhythm_;
   base::Sequence order_{50, base::CounterUse::automatic};
   CameraHistory history_;
-  wire::CameraParams newest_;  // the one that came last
+  wire::CameraParams newest_;  // received last
   std::vector<Output> outputs_;
   std::optional<std::int64_t> due_;
-  std::int64_t departure_ = 0, arrival_ = 0;  // steady clock, the last ones
+  std::int64_t departure_ = 0, arrival_ = 0;  // steady clock, of the last departure and arrival
   std::int64_t offset_ = 0;                   // from the samples' times to the clock
   std::optional<std::uint64_t> first_counter_;
   std::uint64_t left_out_ = 0;

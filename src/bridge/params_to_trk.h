@@ -1,4 +1,4 @@
-// Parameters and constants of two topics, put together for outlets.
+// Combines parameters and constants of two topics for outlets.
 #pragma once
 
 #include <cstdint>
@@ -15,27 +15,27 @@ struct ParamsToTrkStatistics {
   std::uint64_t received = 0;       ///< parameters
   std::int64_t last_received = 0;   ///< steady clock, ns; valid once received > 0
   std::uint32_t last_format = 0;    ///< as received
-  std::uint64_t bad_constants = 0;  ///< constants that leave no picture: ignored
+  std::uint64_t bad_constants = 0;  ///< invalid constants (no picture is left): ignored
   ConstantsOrigin constants = ConstantsOrigin::none;
 };
 
-/// Not synchronised: one thread at a time. Allocates nothing.
+/// Not synchronised: one thread at a time. Does not allocate.
 class ParamsToTrk {
  public:
-  /// `constants` count until some are taken; they have passed camera::check().
+  /// `constants` are used until others are received; they must have passed camera::check().
   explicit ParamsToTrk(const std::optional<wire::CameraConstants>& constants = std::nullopt) noexcept;
 
-  /// Takes constants, which go out with the next parameters. The newest sound ones count, whatever their id.
+  /// Stores constants, which are sent with the next parameters. The newest valid ones are used, whatever their id.
   void use(const wire::CameraConstants&) noexcept;
 
-  /// The parameters as they came, with the constants where outlets need them. `now` is the steady clock, ns.
+  /// The parameters unchanged, with the constants if outlets need them. `now` is the steady clock, ns.
   OutgoingSet use(const wire::CameraParams&, std::int64_t now) noexcept;
 
   const ParamsToTrkStatistics& statistics() const noexcept { return statistics_; }
 
  private:
   std::optional<wire::CameraConstants> newest_;
-  camera::Converter given_;  // remembers what outlets have
+  camera::Converter given_;  // knows what outlets have received
   ParamsToTrkStatistics statistics_;
 };
 

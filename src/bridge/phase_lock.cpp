@@ -6,17 +6,17 @@
 namespace trk_bridge::bridge {
 namespace {
 
-/// The samples' rhythm is remembered for so many of them, 4 s at 50 Hz.
+/// Memory of the filter in samples: 4 s at 50 Hz.
 constexpr double memory = 200;
-/// So many samples in a row that do not fit are another rhythm.
+/// After this many consecutive samples that do not fit, the rhythm has changed.
 constexpr int most_strays = 10;
-/// ns without a sample, after which the rhythm begins again.
+/// ns without a sample, after which the rhythm is measured again.
 constexpr std::int64_t longest_gap = 1'000'000'000;
-/// ns, behind an arrival that comes as expected: what it takes a sample to be ready.
+/// ns after an expected arrival: the time until a sample is ready.
 constexpr double least_wait = 300'000;
-/// ns: what is sent is to be as new as it can. Who wants it even through more jitter than this gives it a delay.
+/// ns; limited because samples should be sent as new as possible. More jitter than this needs a delay.
 constexpr double longest_wait = 800'000;
-/// Of rates that are one.
+/// Relative difference of rates that count as equal.
 constexpr double tolerance = 0.005;
 
 }  // namespace
@@ -34,7 +34,7 @@ void PhaseLock::arrive(std::int64_t now) noexcept {
   const double periods = std::round(ahead / sample_period_);
   const double error = ahead - periods * sample_period_;
   last_ = now;
-  // A second sample of one period, and one that comes at an odd time, say nothing.
+  // A second sample within one period is not used, nor is one at an odd time.
   if (periods < 1) return;
   if (std::abs(error) > std::max(sample_period_ / 4, 4 * deviation_)) {
     if (++strays_ > most_strays) start_over(now);
@@ -74,7 +74,7 @@ void PhaseLock::correct(double periods, double error) noexcept {
   const double fading = std::exp(-1 / memory);
   const double alpha = std::max(2 * (2 * k - 1) / (k * (k + 1)), 1 - fading * fading);
   const double beta = std::max(6 / (k * (k + 1)), (1 - fading) * (1 - fading));
-  // Delays are rare and long: they count as far as others, so that the rhythm stays where most samples are.
+  // Delays are rare and long: they are clipped, so that the rhythm stays where most samples are.
   const double limit = samples_ < 20 ? std::abs(error) : least_wait / 2 + 2 * deviation_;
   const double counted = std::clamp(error, -limit, limit);
   phase_ += periods * sample_period_ + alpha * counted;
@@ -107,7 +107,7 @@ std::optional<std::int64_t> PhaseLock::next(std::int64_t now) noexcept {
   if (!last_ || period() == 0) return std::nullopt;
   if (!departure_) departure_ = *last_ + static_cast<std::int64_t>(least_wait) - std::llround(period());
   const double step = period();
-  // Departures that were missed are left out.
+  // Missed departures are skipped.
   const double missed = std::max(0.0, std::floor(static_cast<double>(now - *departure_) / step));
   auto next = static_cast<double>(*departure_ - origin_) + (1 + missed) * step;
   if (is_locked()) {

@@ -1,4 +1,4 @@
-// What diagnostics say of ROS itself, as every node meets it: its master and its time.
+// Diagnostics of the ROS master and of ROS time, for every node.
 #pragma once
 
 #include <cstdint>
@@ -13,21 +13,21 @@ enum class MasterState : std::uint8_t {
   unasked,
   knows_node,
   silent,  ///< no answer
-  forgot,  ///< it was restarted: what this node has registered is lost for good
+  forgot,  ///< it was restarted: the registrations of this node are lost
 };
 
-/// One look at ROS.
+/// The state of ROS at one time.
 struct RosReport {
   MasterState master = MasterState::unasked;
   std::string master_uri;
-  std::int64_t answered = 0;        ///< when the master last did, steady clock, ns
+  std::int64_t answered = 0;        ///< when the master last answered, steady clock, ns
   bool is_simulated = false;        ///< ROS time comes from /clock
   std::int64_t ros_time = 0;        ///< ns
-  std::int64_t ros_time_moved = 0;  ///< when it was first found to be this, steady clock, ns
+  std::int64_t ros_time_moved = 0;  ///< when it last changed, steady clock, ns
   std::int64_t time = 0;            ///< steady clock, ns
 };
 
-/// ns; simulated time that is the same for so long stands.
+/// ns; simulated time that does not change for this long counts as stopped.
 inline constexpr std::int64_t ros_time_stands_after = 2'000'000'000;
 
 std::vector<Finding> findings(const RosReport& now, const RosReport& before);

@@ -31,7 +31,7 @@ void SenderLock::note_foreign(const transport::Sender& sender) noexcept {
   if (!same_address(*holder_, sender)) return;
   const auto end = ports_.begin() + port_count_;
   if (std::find(ports_.begin(), end, sender.number) != end) {
-    // That port is used on: it is another sender's.
+    // The port is used again: it belongs to another sender.
     port_count_ = 0;
     return;
   }

@@ -3,7 +3,7 @@
 namespace trk_bridge::bridge {
 
 std::optional<std::int64_t> Stamper::stamp(std::int64_t time) noexcept {
-  // A time from outside of ROS time must not push the stamps of all that come after it.
+  // A time outside the range of ROS time must not affect later stamps.
   if (time < 0 || time > latest_stamp) return std::nullopt;
   const std::int64_t wanted = time - delay_;
   std::int64_t given = wanted;

@@ -1,4 +1,4 @@
-// What diagnostics say of one thing: REP 107's status, without ROS.
+// The diagnostic status of one thing: that of REP 107, without ROS.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace trk_bridge::bridge {
 
-/// The numbers are those of diagnostic_msgs/DiagnosticStatus.
+/// With the numbers of diagnostic_msgs/DiagnosticStatus.
 enum class Level : std::uint8_t { ok = 0, warn = 1, error = 2, stale = 3 };
 
-/// A summary and key-values, in the order in which they are shown.
+/// A summary and key-value pairs in display order.
 struct Status {
   Level level = Level::ok;
   std::string message;

@@ -89,7 +89,7 @@ std::optional<OutgoingSet> TfToTrk::make(const Eigen::Isometry3d& studio_T_frame
   camera.lens.focdist = focdist_;
   camera.lens.aperture = aperture_;
   const auto params = canonical_.convert(camera);
-  // Whether a set comes of it or not, this pose is done with.
+  // The pose is consumed, even if no set results.
   last_pose_ = stamp;
   if (!params) {
     ++statistics_.dropped;

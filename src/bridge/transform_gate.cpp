@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t most_off = 1'000'000'000;  // ns
 
-/// tf2 takes frames with a leading slash for the same.
+/// tf2 ignores a leading slash.
 std::string_view without_slash(std::string_view frame) { return frame.substr(frame.substr(0, 1) == "/" ? 1 : 0); }
 
 }  // namespace
@@ -47,7 +47,7 @@ TransformGate::Verdict TransformGate::judge(const StampedLink& given, std::int64
   const auto jump = jump_of(link, given, ros_now, now);
   if (jump) {
     if (!link.refused_since) link.refused_since = now;
-    // What happens to others is not this camera's concern.
+    // Other links do not affect this camera.
     if (!pose_depends_on(link)) return Verdict::refuse;
     if (now - *link.refused_since < patience) {
       ++statistics_.refused;
@@ -82,7 +82,7 @@ std::optional<StampJump> TransformGate::jump_of(const Link& link, const StampedL
 bool TransformGate::pose_depends_on(const Link& link) const {
   for (const auto& end : {camera_frame_, studio_frame_}) {
     const std::string* frame = &end;
-    // Wrong transforms can make a circle.
+    // Wrong transforms can form a loop.
     for (std::size_t steps = 0; steps <= links_.size(); ++steps) {
       const auto found = links_.find(*frame);
       if (found == links_.end()) break;

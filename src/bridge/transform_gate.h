@@ -1,4 +1,4 @@
-// Keeps transforms whose stamps are wrong from a tf buffer, which would stop there, and follows clocks that were set.
+// Protects a tf buffer from transforms with wrong stamps, which would block it, and follows clocks that were set.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct StampJump {
   enum class Kind : std::uint8_t {
     ahead,          ///< of ROS time
     back,           ///< behind the link's own clock
-    ros_time_back,  ///< the clock of ROS itself: of no link
+    ros_time_back,  ///< the clock of ROS, not of a link
   };
   Kind kind = Kind::ahead;
   std::string frame;   ///< the link's child
@@ -24,45 +24,45 @@ struct StampJump {
 };
 std::string describe(const StampJump&);
 
-/// Jumps of the links that the pose depends on.
+/// Counts only jumps of links that the pose depends on.
 struct TransformGateStatistics {
   std::uint64_t refused = 0;  ///< transforms
   StampJump last_refused;
-  std::uint64_t restarts = 0;  ///< clocks that were followed
+  std::uint64_t restarts = 0;  ///< how often a clock that was set was followed
   StampJump last_restart;
 };
 
-/// One transform of tf. Stamp in ns since 1970. Texts are the caller's.
+/// One transform of tf. Stamp in ns since 1970. The caller owns the texts.
 struct StampedLink {
   std::string_view parent, child;
   std::int64_t stamp = 0;
   std::string_view sender;
 };
 
-/// Judges every transform before it gets into a tf buffer. A buffer holds the newest 10 s: one transform that lies far
-/// ahead removes the others of its link and has all later ones refused, and so does a clock that is set back.
-/// A stamp may lie up to 1 s ahead of ROS time, or of where its link's own clock is by now, and 1 s behind the link's
-/// newest. Other transforms are refused. Where nothing else has come on their link for `patience`, its clock was set:
-/// then the buffer has to start over, and the new clock counts. Not synchronised: one thread at a time.
+/// Checks every transform before it is put into a tf buffer. A buffer holds the newest 10 s: after one transform far in
+/// the future it removes the others of that link and refuses all later ones; the same happens when a clock is set back.
+/// A stamp may be up to 1 s ahead of ROS time, or of the current time of its link's clock, and up to 1 s behind the
+/// newest stamp of the link. Other transforms are refused. If a link has had only such transforms for `patience`, its
+/// clock was set: then the buffer must be cleared, and the new clock is used. Not synchronised: one thread at a time.
 class TransformGate {
  public:
   enum class Verdict : std::uint8_t {
     use,
     refuse,
-    restart,  ///< empty the buffer of all but static transforms, then use it
+    restart,  ///< clear all but static transforms from the buffer, then use it
   };
-  /// ns, of a jump that is followed; with what a link's period adds it costs less than 1 s of poses.
+  /// ns until a jump is followed; with the period of the link, less than 1 s of poses is lost.
   static constexpr std::int64_t patience = 300'000'000;
 
   /// The pose is that of `camera_frame` in `studio_frame`.
   TransformGate(std::string studio_frame, std::string camera_frame);
 
-  /// A link that no stamp belongs to.
+  /// Adds a link without stamps.
   void add_static(std::string_view parent, std::string_view child) { link_of(parent, child); }
-  /// Whether ROS time, `ros_now`, has gone back by more than 1 s since the last call: then the buffer has to start
-  /// over. To be asked before judge().
+  /// Whether ROS time, `ros_now`, has gone back by more than 1 s since the last call: then the buffer must be cleared.
+  /// Call it before judge().
   bool ros_time_went_back(std::int64_t ros_now);
-  /// `ros_now` is ROS time, `now` the steady clock, both ns. Allocates only for links that are new, and for jumps.
+  /// `ros_now` is ROS time, `now` the steady clock, both ns. Allocates only for new links and for jumps.
   Verdict judge(const StampedLink&, std::int64_t ros_now, std::int64_t now);
 
   const TransformGateStatistics& statistics() const noexcept { return statistics_; }
@@ -71,8 +71,8 @@ class TransformGate {
   struct Link {
     std::string parent;
     std::optional<std::int64_t> newest;         // stamp
-    std::int64_t newest_at = 0;                 // when it came, steady clock
-    std::optional<std::int64_t> refused_since;  // steady clock, of those that came since the last sound one
+    std::int64_t newest_at = 0;                 // when it arrived, steady clock
+    std::optional<std::int64_t> refused_since;  // steady clock; first refusal since the last valid transform
   };
 
   Link& link_of(std::string_view parent, std::string_view child);
@@ -82,7 +82,7 @@ class TransformGate {
 
   const std::string studio_frame_, camera_frame_;
   std::map<std::string, Link, std::less<>> links_;  // by their child
-  std::int64_t ahead_ = 0;                          // ns, of the clock that was followed, over ROS time
+  std::int64_t ahead_ = 0;                          // ns that the followed clock is ahead of ROS time
   std::int64_t last_ros_now_ = 0;
   TransformGateStatistics statistics_;
 };
