@@ -26,7 +26,7 @@ namespace {
   throw BagError(std::string(option) + " = " + value + ": " + why);
 }
 
-/// As trk_to_ros names and checks them.
+/// Named and checked like in trk_to_ros.
 ros1::CameraFrames frames_of(const TakeToBagOptions& options) {
   if (const auto sound = ros1::check_camera_name(options.camera); !sound) {
     refuse("--camera", ros1::shown(options.camera), sound.error());
@@ -69,7 +69,7 @@ class TakeCamera {
     return ros1::optical_transform(frames_, ros1::to_time(stamp));
   }
 
-  /// Afterwards messages() has what is in the update.
+  /// Afterwards messages() holds the content of the update.
   bridge::CameraUpdate process(const wire::Record& record, std::int64_t stamp,
                                std::optional<base::CountedTimeCode> time_code = {}) {
     sample_.record = record;
@@ -89,7 +89,7 @@ class TakeCamera {
   ros1::CameraMessages messages_;
 };
 
-/// When the fields of a take were.
+/// The times of the fields of a take.
 class Schedule {
  public:
   Schedule(const base::TimeCode& code, const TakeToBagOptions& options)
@@ -101,12 +101,12 @@ class Schedule {
   }
 
   std::int64_t at(std::uint64_t field) const { return base_ + times_->nanoseconds(field); }
-  /// None when the take's code does not go with the rate.
+  /// None if the time code of the take does not fit the rate.
   std::optional<base::CountedTimeCode> time_code(std::uint64_t field) const {
     if (!codes_) return std::nullopt;
     return base::CountedTimeCode{codes_->code(field), rate_};
   }
-  /// When the time code was 00:00:00:00:1; none when the code does not go with the rate.
+  /// When the time code was 00:00:00:00:1; none if it does not fit the rate.
   std::optional<std::int64_t> zero() const {
     if (!codes_) return std::nullopt;
     return at(0) - codes_->nanoseconds(0);
@@ -120,8 +120,8 @@ class Schedule {
   const std::int64_t base_;
 };
 
-/// The topics of a camera as a recorder would have got them from trk_to_ros. Connection headers are made here, because
-/// a recorder meets publishers in a random order.
+/// The topics of a camera as a recorder would have received them from trk_to_ros. Connection headers are made here,
+/// because the order in which a recorder finds publishers is random.
 class Recording {
  public:
   Recording(file::PartFile& file, const TakeToBagOptions& options, std::optional<std::int64_t> zero)
@@ -139,7 +139,7 @@ class Recording {
 
   void write_static(const geometry_msgs::TransformStamped& transform) { write(static_transforms_, transform); }
 
-  /// What is in the update.
+  /// Writes everything that the update contains.
   void write(const bridge::CameraUpdate& update, ::ros::Time stamp, const ros1::CameraMessages& messages) {
     if (update.constants) writer_.write(constants_, stamp, *messages.constants());
     if (update.pose) write(transforms_, messages.transform());
@@ -183,7 +183,7 @@ void report(const bridge::CameraStatistics& statistics, std::ostream& err) {
   }
 }
 
-/// Of the next field.
+/// The stamp of a field. Throws BagError if it is outside the range of ROS time.
 std::int64_t stamp_at(const Schedule& schedule, std::uint64_t field) {
   const std::int64_t stamp = schedule.at(field);
   if (!bridge::can_be_stamp(stamp)) {
@@ -192,7 +192,7 @@ std::int64_t stamp_at(const Schedule& schedule, std::uint64_t field) {
   return stamp;
 }
 
-/// What is behind the head of the take. The fault is that of a last line that is cut.
+/// Converts everything after the head of the take. Returns the fault of an incomplete last line.
 std::optional<transport::Fault> record(file::TakeReader& take, const Schedule& schedule, TakeCamera& camera,
                                        Recording& recording, cli::LongRun& run) {
   const std::int64_t begin = stamp_at(schedule, 0);

@@ -10,7 +10,7 @@
 namespace trk_bridge::bag {
 namespace {
 
-/// The namespace of a topic whose last word is this one.
+/// The namespace of a topic that ends in `last`.
 std::optional<std::string> name_space_of(const std::string& topic, std::string_view last) {
   const std::size_t slash = topic.rfind('/');
   if (slash == std::string::npos || std::string_view(topic).substr(slash + 1) != last) return std::nullopt;
@@ -23,7 +23,7 @@ struct Topics {
   bool can(Input input) const { return input == Input::params ? params : camera_info; }
 };
 
-/// By type alone: the form of the message is only checked for the chosen one.
+/// By type only: the MD5 sum of the message is checked for the chosen camera only.
 std::map<std::string, Topics> cameras_in(const std::vector<Connection>& connections) {
   std::map<std::string, Topics> cameras;
   for (const auto& connection : connections) {
@@ -71,7 +71,7 @@ ChosenCamera choose_camera(const std::vector<Connection>& connections, const std
     camera = other_name || other_input ? fit.erase(camera) : std::next(camera);
   }
   if (fit.empty() && name) {
-    // Says so when it is there and of another type.
+    // Throws a more specific error if the topic exists with another type.
     has_topic<trk_bridge::CameraParams>(connections, topic_of(bare, "params"));
     has_topic<sensor_msgs::CameraInfo>(connections, topic_of(bare, "camera_info"));
     throw BagError("camera " + *name + " has no topic " + wanted(input) + "; the bag has " + listed(all));

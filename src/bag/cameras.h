@@ -9,10 +9,10 @@
 
 namespace trk_bridge::bag {
 
-/// What a take is made from: a camera's params and constants, or tf and its camera_info.
+/// The source of a take: params and constants of a camera, or tf and its camera_info.
 enum class Input { params, tf };
 
-/// A namespace without its first slash ("studio1/crane1"; "" for topics that have none).
+/// A namespace without leading slash ("studio1/crane1"; "" for topics without a namespace).
 struct ChosenCamera {
   std::string name;
   Input input = Input::params;
@@ -21,13 +21,13 @@ struct ChosenCamera {
 /// The topic of a camera: "/studio1/crane1/params".
 std::string topic_of(const std::string& camera, const std::string& last);
 
-/// The only camera, or the one named, with or without its first slash; read by its params where it has any, unless
-/// `input` says otherwise. Throws BagError: none, several (listing them), a topic that has another type or an older
-/// form of the message.
+/// The only camera, or the named one, with or without leading slash. Its params are used if it has any, unless `input`
+/// differs. Throws BagError if there is none or several (and lists them), or if a topic has another type or an older
+/// definition of the message.
 ChosenCamera choose_camera(const std::vector<Connection>&, const std::optional<std::string>& name,
                            std::optional<Input> input);
 
-/// Throws BagError when a connection of this topic carries anything else. False when there is none.
+/// False if there is no such topic. Throws BagError if a connection of this topic has another message type.
 template <typename Message>
 bool has_topic(const std::vector<Connection>& connections, const std::string& topic) {
   bool found = false;

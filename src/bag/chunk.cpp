@@ -12,14 +12,15 @@ namespace trk_bridge::bag {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
-// An lz4 block is at most 4 MiB and comes out in one piece.
+// An lz4 block is at most 4 MiB and is unpacked in one piece.
 constexpr std::size_t room = std::size_t{4} << 20;
-// Both libraries count in int.
+// Both libraries use int for sizes.
 constexpr std::size_t portion = std::size_t{1} << 30;
 
 enum class Step { more, end, fault };
 
-/// Feeds a decompressor until it ends, fails or has had everything. `Stream::step` consumes and produces what it can.
+/// Feeds a decompressor until it ends, fails or has consumed everything. `Stream::step` consumes and produces as much
+/// as it can.
 template <typename Stream>
 Unpacked unpack(std::vector<std::uint8_t>& packed) {
   Stream stream;
@@ -110,12 +111,12 @@ Unpacked unpack_chunk(const std::string& compression, std::vector<std::uint8_t>&
 }
 
 std::vector<std::uint8_t> pack_chunk(const std::string& compression, std::vector<std::uint8_t>& bytes) {
-  // What cannot be compressed grows by 1 % and 600 bytes at most with bzip2, by less with lz4.
+  // Incompressible data grow by at most 1 % and 600 bytes with bzip2, by less with lz4.
   std::vector<std::uint8_t> packed(bytes.size() + bytes.size() / 100 + 600);
   auto size = static_cast<unsigned>(packed.size());
   auto* const from = reinterpret_cast<char*>(bytes.data());
   auto* const to = reinterpret_cast<char*>(packed.data());
-  // Blocks as rosbag packs them: of 900 kB, and of 1 MiB.
+  // The block sizes of rosbag: 900 kB and 1 MiB.
   const bool good =
       compression == rosbag::COMPRESSION_BZ2
           ? BZ2_bzBuffToBuffCompress(to, &size, from, static_cast<unsigned>(bytes.size()), /*blockSize100k=*/9,

@@ -1,4 +1,4 @@
-// Compressed chunks of bags, packed, and unpacked as far as they go.
+// Packs chunks of bags, and unpacks them as far as possible.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,12 @@ namespace trk_bridge::bag {
 
 struct Unpacked {
   std::vector<std::uint8_t> bytes;
-  std::string fault;  ///< why there is no more of them; empty when all is there. Reads behind "the chunk at byte N".
+  std::string
+      fault;  ///< why the bytes are incomplete; empty: they are complete. Continues the phrase "the chunk at byte N".
 };
 
-/// `compression` is a bag's word: bz2 or lz4; any other is a fault. What was packed whole before a cut or a fault is
-/// given, up to the 1 GiB that no recorder puts into one chunk.
+/// `compression` is the word in the bag: bz2 or lz4; any other is a fault. Returns everything that was packed
+/// completely before a cut or a fault, up to 1 GiB, which is more than any recorder puts into one chunk.
 Unpacked unpack_chunk(const std::string& compression, std::vector<std::uint8_t>& packed);
 
 /// `compression` is bz2 or lz4.

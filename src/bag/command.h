@@ -16,7 +16,7 @@ class Command {
  public:
   explicit Command(CLI::App&);
   bool is_asked_for() const { return command_->parsed(); }
-  /// Throws CLI::Error for wrong options, std::runtime_error for all else that goes wrong.
+  /// Throws CLI::Error for wrong options, std::runtime_error for other errors.
   cli::ExitCode run();
 
  private:

@@ -1,4 +1,4 @@
-// `trk bag`, both ways.
+// `trk bag` in both directions.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace trk_bridge::bag {
 struct TakeToBagOptions {
   std::string camera = "camera";
   std::string studio_frame = "studio";
-  std::optional<std::string> camera_frame, optical_frame;  ///< none: as trk_to_ros names them
-  /// FormatBit mask of the params; none: as received, so that the way back gives the same take.
+  std::optional<std::string> camera_frame, optical_frame;  ///< none: the default names of trk_to_ros
+  /// FormatBit mask of the params; none: as received, so that converting back gives the same take.
   std::optional<std::uint32_t> format;
   double field_rate = 50;                    ///< Hz
   std::int64_t midnight = default_midnight;  ///< when the time code was 00:00:00:00:1, ns since 1970 UTC
@@ -24,34 +24,35 @@ struct TakeToBagOptions {
   std::string compression = "none";          ///< none, bz2 or lz4
   bool overwrite = false;
 
-  /// 1970-01-02: clearly not the day of the recording, which a take does not contain, and within ROS's range of time.
+  /// 1970-01-02: obviously not the day of the recording, which a take does not contain, and within the range of ROS
+  /// time.
   static constexpr std::int64_t default_midnight = 86'400'000'000'000;
 };
 
 struct BagToTakeOptions {
-  std::optional<std::string> camera;    ///< a namespace; none: the bag's only one
-  std::optional<Input> input;           ///< none: params where there are any
-  std::optional<double> field_rate;     ///< Hz; none: as the bag says, else 50
-  std::optional<std::uint32_t> format;  ///< none: params as they are, tf as euler
-  std::optional<std::uint32_t> id;      ///< in place of the bag's
+  std::optional<std::string> camera;    ///< a namespace; none: the only camera of the bag
+  std::optional<Input> input;           ///< none: params if there are any
+  std::optional<double> field_rate;     ///< Hz; none: that of the bag, else 50
+  std::optional<std::uint32_t> format;  ///< none: params unchanged, tf as euler
+  std::optional<std::uint32_t> id;      ///< replaces the id in the bag
   std::string studio_frame = "studio";
   std::optional<std::string> camera_frame;        ///< none: the frame of camera_info
-  bool camera_frame_is_optical = false;           ///< the frame of camera_info always is
+  bool camera_frame_is_optical = false;           ///< always true for the frame of camera_info
   std::optional<double> chip_width, chip_height;  ///< mm, for bags without constants
   bool overwrite = false;
 };
 
-/// Writes what trk_to_ros with format:=as_received, or with the format of the options, would have published of a take,
-/// stamped by its time code. Equal takes and options make equal files. Throws std::runtime_error, and Interrupted, and
-/// then leaves nothing.
+/// Writes what trk_to_ros with format:=as_received, or with the format of the options, would have published for a take,
+/// with stamps from its time code. Equal takes and options give equal files. Throws std::runtime_error and Interrupted,
+/// and then leaves no file.
 void bag_of_take(const std::string& take, const std::string& bag, const TakeToBagOptions&, cli::LongRun&,
                  std::ostream& err);
 
-/// Makes a take of a recording, whole or cut short. What is missing is reported on `err`. Throws as the above.
+/// Converts a complete or truncated recording to a take. Reports on `err` what is missing. Throws like bag_of_take().
 void take_of_bag(const std::string& bag, const std::string& take, const BagToTakeOptions&, cli::LongRun&,
                  std::ostream& err);
 
-/// Throws transport::TransportError "PATH: cannot be written: reason" unless it was.
+/// Throws transport::TransportError "PATH: cannot be written: reason" unless it was written.
 void check_written(const std::string& path, const transport::Written&);
 
 }  // namespace trk_bridge::bag

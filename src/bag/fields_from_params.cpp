@@ -12,8 +12,8 @@
 namespace trk_bridge::bag {
 namespace {
 
-/// The last constants of the recording, in their converter; none when there is no message. Whether they changed after a
-/// field is seen when the fields are read.
+/// The last constants of the recording, in their converter; none if there is no message. A change after a field is
+/// detected later, when the fields are read.
 camera::Converter recorded_constants(Reader& bag, const std::string& topic, std::optional<std::uint32_t> format) {
   RecordedConstants constants(format);
   bag.read([&](const Connection& connection) { return connection.topic == topic; },
@@ -24,7 +24,7 @@ camera::Converter recorded_constants(Reader& bag, const std::string& topic, std:
   return constants.converter();
 }
 
-/// Makes fields of messages: in the take's format and with its id.
+/// Converts messages to fields with the format and id of the take.
 class Conversion {
  public:
   Conversion(const camera::Converter& converter, std::optional<std::uint32_t> id)
@@ -32,7 +32,7 @@ class Conversion {
     if (id) constants_.id = *id;
   }
 
-  /// The error is why the take cannot hold it. Throws BagError for another camera's.
+  /// The error is the reason why the take cannot hold it. Throws BagError for parameters of another camera.
   tl::expected<void, std::string> pass(const wire::CameraParams& recorded, std::int64_t stamp,
                                        const FieldVisitor& visit) {
     if (!first_id_) begin(recorded.id);
@@ -58,7 +58,7 @@ class Conversion {
  private:
   void begin(std::uint32_t id) {
     first_id_ = id;
-    // Constants with 0 serve any camera.
+    // Constants with id 0 are valid for any camera.
     if (!id_ && recorded_id_ != 0) constants_.id = id;
   }
 

@@ -24,27 +24,27 @@ namespace {
 
 using geometry_msgs::TransformStamped;
 
-/// How far transforms may lie apart to be interpolated between, as in tf's own buffers.
+/// The largest distance of transforms for interpolation, as in the buffers of tf.
 constexpr std::int64_t reach = 10'000'000'000;  // ns
 
 /// Stamps in the order of recording, ns; none is 0.
 struct Stamps {
   std::uint64_t count = 0;
   std::int64_t newest = 0;
-  std::int64_t disorder = 0;  ///< by how much the newest one was newer than one that came behind it, at most
+  std::int64_t disorder = 0;  ///< the largest amount by which a stamp was older than the newest before it
 
   void add(std::int64_t stamp) {
     ++count;
     newest = std::max(newest, stamp);
     disorder = std::max(disorder, newest - stamp);
   }
-  /// Whether of `all` none up to `stamp` is still to come.
+  /// Whether all stamps of `all` up to `stamp` have been read.
   bool have_reached(std::int64_t stamp, const Stamps& all) const {
     return count == all.count || stamp < newest - all.disorder;
   }
 };
 
-/// What has to be known before the first field.
+/// Data that is needed before the first field.
 struct Survey {
   RecordedConstants constants;
   Stamps infos, transforms;
@@ -108,36 +108,36 @@ Survey survey_of(Reader& bag, const Topics& topics, std::uint32_t format) {
   return survey;
 }
 
-/// The transforms of a recording, as they come. The buffer holds only those around the requested time, because each
-/// lookup searches all that it holds.
+/// The transforms of a recording, in reading order. The buffer holds only those around the requested time, because each
+/// lookup searches the whole buffer.
 class Poses {
  public:
   explicit Poses(const Survey& survey) : all_(survey.transforms), buffer_(::ros::Duration().fromNSec(2 * reach)) {
     for (const auto& [child, transform] : survey.fixed) buffer_.setTransform(transform, "bag", /*is_static=*/true);
   }
 
-  /// Of those of one child with equal stamps the first counts: a buffer warns of repeated ones.
+  /// If a child has several transforms with equal stamps, the first is used: a buffer warns about repeated ones.
   void add(const TransformStamped& transform) {
     const std::int64_t stamp = stamp_of(transform);
     if (stamp == 0) return;
-    come_.add(stamp);
+    read_.add(stamp);
     waiting_.emplace(std::pair(stamp, transform.child_frame_id), transform);
   }
 
-  /// Whether all have come that a pose at this time may be made of.
-  bool have_come(std::int64_t stamp) const { return come_.have_reached(stamp + reach, all_); }
-  /// From now on no pose before this time is asked for.
+  /// Whether all transforms that a pose at this time may need have been read.
+  bool are_read(std::int64_t stamp) const { return read_.have_reached(stamp + reach, all_); }
+  /// No pose before this time will be requested any more.
   void pass_to(std::int64_t stamp) {
     while (!waiting_.empty()) {
       const auto first = waiting_.begin();
       const std::int64_t its_stamp = first->first.first;
-      if (its_stamp > stamp + reach || !come_.have_reached(its_stamp, all_)) break;
+      if (its_stamp > stamp + reach || !read_.have_reached(its_stamp, all_)) break;
       buffer_.setTransform(first->second, "bag", /*is_static=*/false);
       waiting_.erase(first);
     }
   }
 
-  /// After pass_to() of this time. The error is tf's own.
+  /// Call after pass_to() of this time. The error is that of tf.
   tl::expected<Eigen::Isometry3d, std::string> at(::ros::Time stamp, const std::string& parent,
                                                   const std::string& child) const {
     try {
@@ -151,12 +151,12 @@ class Poses {
 
  private:
   const Stamps all_;
-  Stamps come_;
+  Stamps read_;
   std::map<std::pair<std::int64_t, std::string>, TransformStamped> waiting_;  // by stamp and child
   tf2::BufferCore buffer_;
 };
 
-/// Those that the bag lacks, from the options.
+/// Uses the options if the bag has no constants.
 void use_chip_options(Survey& survey, const BagToTakeOptions& options) {
   if (survey.constants.converter().incoming() != nullptr) {
     if (options.chip_width || options.chip_height) refuse_chip_options();
@@ -181,7 +181,7 @@ void use_chip_options(Survey& survey, const BagToTakeOptions& options) {
   survey.constants.use(constants, stamp_of(info));
 }
 
-/// The lens of each CameraInfo, fitted again only when the calibration changes; and the largest errors of all fits.
+/// The lens of each CameraInfo, fitted again only if the calibration changes, and the largest errors of all fits.
 class LensFits {
  public:
   explicit LensFits(const wire::CameraConstants& constants) : constants_(constants) {}
@@ -229,7 +229,7 @@ class LensFits {
   camera::FittedLens largest_;  // its lens is not used
 };
 
-/// The pose of the camera's own axes: those of CameraInfo's frame are optical.
+/// The pose of the camera axes, converted from the optical frame of CameraInfo if needed.
 tl::expected<Eigen::Isometry3d, std::string> pose_of(const Poses& poses, const sensor_msgs::CameraInfo& info,
                                                      const BagToTakeOptions& options) {
   if (info.header.stamp.isZero()) return tl::unexpected(std::string("camera_info without a stamp"));
@@ -252,7 +252,7 @@ tl::expected<wire::CameraParams, std::string> params_of(const Poses& poses, Lens
   return *params;
 }
 
-/// Makes fields of camera_info in the order of stamps, each when all transforms have come that it needs.
+/// Converts camera_info to fields in the order of stamps, each as soon as all transforms that it needs have been read.
 class Conversion {
  public:
   Conversion(const Survey& survey, const BagToTakeOptions& options, const FieldVisitor& visit)
@@ -273,7 +273,7 @@ class Conversion {
   }
   void add(const sensor_msgs::CameraInfo& info) {
     if (info.header.stamp.isZero()) return convert(info);
-    come_.add(stamp_of(info));
+    read_.add(stamp_of(info));
     waiting_.emplace(stamp_of(info), info);
     convert_complete();
   }
@@ -288,18 +288,18 @@ class Conversion {
   void convert_complete() {
     while (!waiting_.empty()) {
       const auto first = waiting_.begin();
-      if (!come_.have_reached(first->first, all_) || !poses_.have_come(first->first)) break;
+      if (!read_.have_reached(first->first, all_) || !poses_.are_read(first->first)) break;
       poses_.pass_to(first->first);
       convert(first->second);
       waiting_.erase(first);
     }
-    // Also where no camera_info comes for long, so that what it will not need is not kept.
+    // Also during long gaps between camera_info, so that transforms that are not needed are not kept.
     poses_.pass_to(waiting_.empty() ? earliest_to_come() : std::min(waiting_.begin()->first, earliest_to_come()));
   }
 
   std::int64_t earliest_to_come() const {
-    if (come_.count == all_.count) return std::numeric_limits<std::int64_t>::max() - reach;
-    return std::max(earliest_, come_.newest - all_.disorder);
+    if (read_.count == all_.count) return std::numeric_limits<std::int64_t>::max() - reach;
+    return std::max(earliest_, read_.newest - all_.disorder);
   }
 
   void convert(const sensor_msgs::CameraInfo& info) {
@@ -325,7 +325,7 @@ class Conversion {
   wire::CameraConstants constants_;
   const Stamps all_;
   const std::int64_t earliest_;
-  Stamps come_;
+  Stamps read_;
   std::multimap<std::int64_t, sensor_msgs::CameraInfo> waiting_;  // by stamp
   Poses poses_;
   LensFits fits_;

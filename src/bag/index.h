@@ -1,4 +1,4 @@
-// What stands at the end of a bag: its connections, and where its chunks are.
+// The index at the end of a bag: its connections, and the positions of its chunks.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@
 
 namespace trk_bridge::bag {
 
-/// Throws BagError when the file is no bag of format 2.0.
+/// Throws BagError if the file is not a bag of format 2.0.
 void check_magic(Bytes&);
 /// Throws BagError for the header of an encrypted bag.
 void check_encryption(const Record& file_header);
-/// None when the record is not sound.
+/// None if the record is malformed.
 std::optional<Connection> connection_of(Bytes&, const Record&);
 
-/// A time of a record: seconds in the upper half, nanoseconds in the lower, so that it can be compared. None where
+/// A time of a record: seconds in the upper half, nanoseconds in the lower half, so that times can be compared. None if
 /// there is none.
 std::optional<std::uint64_t> time_in(const HeaderFields&, const std::string& name);
 
 struct Chunk {
   std::uint64_t place = 0;                                      ///< of its record
-  std::uint64_t begin = 0;                                      ///< the first time of its messages
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> counts;  ///< of messages, by connection
+  std::uint64_t begin = 0;                                      ///< the earliest time of its messages
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> counts;  ///< number of messages by connection
 };
 
 struct Index {
@@ -36,7 +36,7 @@ struct Index {
   std::vector<Chunk> chunks;
 };
 
-/// The error is why it cannot be read. Throws BagError as the above.
+/// The error is the reason why it cannot be read. Throws BagError like the functions above.
 tl::expected<Index, std::string> read_index(Bytes& file);
 
 }  // namespace trk_bridge::bag

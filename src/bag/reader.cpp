@@ -12,7 +12,7 @@
 namespace trk_bridge::bag {
 namespace {
 
-/// A chunk in memory, of which some messages are wanted.
+/// A chunk in memory and its messages of the wanted connections.
 class LoadedChunk {
  public:
   using Wanted = std::map<std::uint32_t, const Connection*>;
@@ -125,7 +125,7 @@ void Reader::read_indexed(const Filter& wanted, const std::function<bool(const R
   std::sort(chunks.begin(), chunks.end(), by_begin);
 
   FileBytes file(path_);
-  // By the time of the next message; of equal ones the chunk that stands first in the file.
+  // Ordered by the time of the next message; equal times by position in the file.
   std::map<std::pair<std::uint64_t, std::uint64_t>, LoadedChunk> loaded;
   double done = 0;
   for (auto next = chunks.begin(); next != chunks.end() || !loaded.empty();) {

@@ -1,4 +1,4 @@
-// What a bag holds, be it whole or cut short.
+// Reads a complete or truncated bag.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace trk_bridge::bag {
 
 struct Index;
 
-/// Why a bag cannot be used; the text does not name it.
+/// Why a bag cannot be used; the text does not contain its name.
 class BagError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -30,26 +30,26 @@ class BagError : public std::runtime_error {
 struct Connection {
   std::uint32_t id = 0;
   std::string topic, type, md5sum;
-  std::map<std::string, std::string> header;  ///< of the publisher, with whatever else the bag's writer put there
+  std::map<std::string, std::string> header;  ///< of the publisher, with entries that the writer of the bag added
 };
 
-/// Valid while it is visited.
+/// Valid during the visit.
 struct RawMessage {
   const Connection& connection;
   std::string_view bytes;  ///< serialised
 };
 
-/// Whether the connection carries this message, as it was when this program was built.
+/// Whether the connection has this message type, with the definition that this program was built with.
 template <typename Message>
 bool carries(const Connection& connection) {
   return connection.md5sum == ::ros::message_traits::md5sum<Message>();
 }
 
-/// Throws BagError when the bytes are not exactly one message.
+/// Throws BagError if the bytes are not exactly one message.
 template <typename Message>
 Message message_of(const RawMessage& message) {
   Message result;
-  // The stream reads only, but asks for bytes that may be written.
+  // The stream only reads, but needs a pointer to non-const.
   auto* const bytes = reinterpret_cast<std::uint8_t*>(const_cast<char*>(message.bytes.data()));
   ::ros::serialization::IStream stream(bytes, static_cast<std::uint32_t>(message.bytes.size()));
   try {
@@ -61,15 +61,15 @@ Message message_of(const RawMessage& message) {
   return result;
 }
 
-/// Of a message's header, ns since 1970.
+/// The stamp in the header of a message, ns since 1970.
 template <typename Message>
 std::int64_t stamp_of(const Message& message) {
   return ros1::from_time(message.header.stamp);
 }
 
-/// Reads a bag of format 2.0 chunk by chunk. In memory are the chunks whose times overlap at one moment (of a
-/// recorder's bag one or two, of 768 KiB each unless a message is longer), and where all chunks are. The file is never
-/// written. Not synchronised; a visitor may read, too.
+/// Reads a bag of format 2.0 chunk by chunk. Keeps the positions of all chunks in memory, and the chunks whose times
+/// overlap (in a bag of a recorder one or two, of 768 KiB each unless a message is longer). Never writes the file. Not
+/// synchronised; a visitor may call read().
 class Reader {
  public:
   /// Throws BagError, and Interrupted.
@@ -79,14 +79,13 @@ class Reader {
   Reader& operator=(const Reader&) = delete;
 
   const std::vector<Connection>& connections() const noexcept { return connections_; }
-  /// Why it is not whole; empty when it is.
+  /// Why it is not complete; empty if it is.
   const std::string& damage() const noexcept { return damage_; }
 
   using Filter = std::function<bool(const Connection&)>;
   using Visitor = std::function<void(const RawMessage&)>;
-  /// Visits the messages of the connections that `wanted` is true for, in the order of their times of recording, and of
-  /// equal times as they stand in the file; without an index all as they stand in the file. Throws BagError, and
-  /// Interrupted.
+  /// Visits the messages of the connections for which `wanted` is true, in order of recording time, with equal times in
+  /// file order; without an index all in file order. Throws BagError, and Interrupted.
   void read(const Filter& wanted, const Visitor& visit);
   /// The same until `visit` returns false.
   void read_while(const Filter& wanted, const std::function<bool(const RawMessage&)>& visit);
@@ -96,7 +95,7 @@ class Reader {
 
   std::string path_;
   cli::LongRun& run_;
-  std::unique_ptr<Index> index_;  // none when it has to be scanned
+  std::unique_ptr<Index> index_;  // none if the bag must be scanned
   std::vector<Connection> connections_;
   std::string damage_;
 };

@@ -14,7 +14,7 @@
 namespace trk_bridge::bag {
 namespace {
 
-// Fields of a record's header are numbers and names; more is no header.
+// A record header contains only numbers and names; a longer one is malformed.
 constexpr std::uint32_t longest_header = 1 << 20;
 constexpr std::uint64_t block_size = 1 << 18;
 constexpr std::uint64_t size_size = sizeof(std::uint32_t);
@@ -27,7 +27,8 @@ std::uint32_t size_in(std::string_view bytes) {
   return size;
 }
 
-/// Takes a field off: its size in four bytes, its name, an equals sign and its value. False where there is none.
+/// Removes one field from `rest`: its size in four bytes, its name, an equals sign and its value. False if there is
+/// none.
 bool take_field(std::string_view& rest, std::string_view& name, std::string_view& value) {
   if (rest.size() < size_size) return false;
   const std::uint32_t size = size_in(rest);
@@ -96,7 +97,7 @@ std::optional<Record> record_at(Bytes& from, std::uint64_t at) {
   const std::uint32_t header_size = size_in(from.at(at, size_size));
   if (header_size == 0 || header_size > longest_header) return std::nullopt;
   if (from.size() - at < 2 * size_size + header_size) return std::nullopt;
-  // With the size of the data behind it, so that both are valid.
+  // Header and data size in one call, so that both stay valid.
   const std::string_view bytes = from.at(at + size_size, header_size + size_size);
   const auto header = HeaderFields::parse(bytes.substr(0, header_size));
   if (!header) return std::nullopt;

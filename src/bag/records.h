@@ -16,7 +16,7 @@ namespace trk_bridge::bag {
 /// The first line.
 inline constexpr std::string_view magic = "#ROSBAG V2.0\n";
 
-/// Bytes that records are read from.
+/// The bytes of a bag or of a chunk.
 class Bytes {
  public:
   virtual ~Bytes() = default;
@@ -52,16 +52,16 @@ class MemoryBytes final : public Bytes {
   std::string_view bytes_;
 };
 
-/// Names and values, as they stand in headers of records and of connections; a view. ros::Header reads the same, but
-/// copies it and writes its errors to standard error.
+/// Names and values in the headers of records and connections; a view. ros::Header reads the same format, but copies it
+/// and prints its errors to standard error.
 class HeaderFields {
  public:
-  /// None unless it is a header to its end.
+  /// None unless all bytes are a valid header.
   static std::optional<HeaderFields> parse(std::string_view bytes);
 
-  /// Empty when there is none of this name.
+  /// Empty if there is no field with this name.
   std::string_view text(std::string_view name) const;
-  /// None when there is none of this name and size.
+  /// None if there is no field with this name and size.
   template <typename Number>
   std::optional<Number> number(std::string_view name) const {
     const std::string_view value = text(name);
@@ -80,13 +80,13 @@ class HeaderFields {
 
 struct Record {
   HeaderFields header;  ///< valid until the next Bytes::at()
-  unsigned char op;     ///< what it is
-  std::uint64_t data;   ///< where its data begin
-  std::uint32_t size;   ///< of its data, which may be cut
+  unsigned char op;     ///< type of the record
+  std::uint64_t data;   ///< position of its data
+  std::uint32_t size;   ///< of its data, which may be truncated
 };
-/// None where no whole header stands.
+/// None if there is no complete header.
 std::optional<Record> record_at(Bytes&, std::uint64_t at);
-/// Whether the data are whole.
+/// Whether the data are complete.
 bool is_whole(const Bytes&, const Record&);
 
 }  // namespace trk_bridge::bag

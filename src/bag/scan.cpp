@@ -35,7 +35,7 @@ class Scan {
   }
 
  private:
-  /// Reads records for as long as they are whole. Returns where it stopped.
+  /// Reads records as long as they are complete. Returns the position where it stopped.
   std::uint64_t records(Bytes& from, std::uint64_t at, bool is_file) {
     while (!is_enough_) {
       if (is_file) run_.at(static_cast<double>(at) / static_cast<double>(from.size()));
@@ -71,11 +71,11 @@ class Scan {
     }
   }
 
-  /// Where the next record begins.
+  /// Returns the position of the next record.
   std::uint64_t chunk(Bytes& from, const Record& record) {
     const std::string compression(record.header.text(rosbag::COMPRESSION_FIELD_NAME));
-    // The records of a plain chunk are as good as the file's own; so the unfinished one, whose size was never
-    // written, needs no special care.
+    // Records of an uncompressed chunk are read like records of the file. So the unfinished chunk, whose size was never
+    // written, needs no special case.
     if (compression == rosbag::COMPRESSION_NONE) return record.data;
     const std::uint64_t there = from.size() - record.data;
     const std::uint64_t packed_size = record.size == 0 ? there : std::min<std::uint64_t>(record.size, there);

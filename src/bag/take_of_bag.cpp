@@ -10,13 +10,13 @@
 namespace trk_bridge::bag {
 namespace {
 
-/// Writes fields as they come. What the take begins with is found with the first one.
+/// Writes fields one after another. The first one determines the beginning of the take.
 class TakeOfFields {
  public:
   TakeOfFields(Reader& bag, const ChosenCamera& camera, const std::string& path, const BagToTakeOptions& options)
       : bag_(bag), camera_(camera), path_(path), options_(options) {}
 
-  /// The error is why the take cannot hold it. Throws BagError and TransportError.
+  /// The error is the reason why the take cannot hold it. Throws BagError and TransportError.
   tl::expected<void, std::string> write(const Field& field) {
     if (!writer_.has_fields()) {
       wire::Buffer buffer;

@@ -18,9 +18,9 @@ namespace trk_bridge::bag {
 namespace {
 
 constexpr double nanoseconds_per_second = 1e9;
-constexpr double least_span = 2;  // s; below, jitter is more than what rates differ by
+constexpr double least_span = 2;  // s; over a shorter time, jitter is larger than the difference of rates
 constexpr std::size_t most_distances = 100'000;
-constexpr double rate_tolerance = 0.02;           // 48 Hz is 4 % from 50
+constexpr double rate_tolerance = 0.02;           // 48 Hz differs from 50 Hz by 4 %
 constexpr std::int64_t day = 86'400'000'000'000;  // ns
 
 template <typename Number>

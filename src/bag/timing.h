@@ -1,4 +1,4 @@
-// Time codes of bags: how stamps and video fields belong together.
+// Time codes of bags: the relation between stamps and video fields.
 #pragma once
 
 #include <cstdint>
@@ -13,37 +13,37 @@
 
 namespace trk_bridge::bag {
 
-/// What `trk bag` adds to the connection headers of a camera's topics, since no message contains it: fields a second,
-/// and when the time code was 00:00:00:00:1, in ns since 1970. rosbag's cutting and filtering keep it, a new recording
+/// Entries that `trk bag` adds to the connection headers of a camera's topics, because no message contains them: fields
+/// a second, and when the time code was 00:00:00:00:1, in ns since 1970. `rosbag filter` keeps them, a new recording
 /// does not.
 inline constexpr const char* field_rate_key = "field_rate";
 inline constexpr const char* time_code_zero_key = "time_code_zero";
 
-inline constexpr double default_field_rate = 50;  // Hz, trk_to_ros's
+inline constexpr double default_field_rate = 50;  // Hz, the default of trk_to_ros
 
 struct RecordedTiming {
   std::optional<double> field_rate;
   std::optional<std::int64_t> time_code_zero;
 };
-/// From the connection headers of a topic, where all of them agree.
+/// From the connection headers of a topic; none where they differ.
 RecordedTiming recorded_timing(const std::vector<Connection>&, const std::string& topic);
 
-/// What the counters and stamps of fields say, one after another. Memory of a fixed size.
+/// Measures rate and gaps from the counters and stamps of fields. Uses memory of a fixed size.
 class FieldSeries {
  public:
-  /// `field_rate` in Hz. Without counters of the sender stamps alone count.
+  /// `field_rate` in Hz. Without counters of the sender, only stamps are used.
   FieldSeries(bool has_counters, double field_rate);
 
   void add(std::uint64_t counter, std::int64_t stamp);
   std::uint64_t count() const noexcept { return count_; }
-  /// Fields a second from counters and stamps, or from the median distance of stamps where there are no counters: of
-  /// the first 100,000. None for less than two seconds.
+  /// Fields a second from counters and stamps or, without counters, from the median distance of the first 100,000
+  /// stamps. None for less than two seconds.
   std::optional<double> measured_rate() const;
-  /// Reports on `err` the fields that the recording lacks, and counters that came again.
+  /// Reports missing fields and repeated counters on `err`.
   void report_gaps(std::ostream& err) const;
 
  private:
-  /// Missing fields between neighbours, as a gap at the stamp before.
+  /// Missing fields between neighbours; a gap has the stamp before it.
   struct Gaps {
     std::uint64_t gaps = 0, fields = 0, first_fields = 0;
     std::int64_t first = 0;
@@ -64,15 +64,14 @@ class FieldSeries {
   Gaps gaps_;
 };
 
-/// Throws BagError where the rate measured is another than the bag's or the default, and warns on `err` of the user's
+/// If the measured rate differs: throws BagError for the rate of the bag or the default, warns on `err` for the user's
 /// `option`.
 void check_rate(double rate, std::optional<double> option, std::optional<double> measured, std::ostream& err);
 
-/// The message of a topic `time_code` that has this stamp, if the bag has one. Throws BagError where it is no time
-/// code.
+/// The message with this stamp on a topic `time_code`, if the bag has one. Throws BagError if it is not a time code.
 std::optional<base::CountedTimeCode> recorded_time_code(Reader&, const std::string& topic, std::int64_t stamp);
 
-/// The code of a stamp, counted from the bag's zero where it has one that is not later, else from midnight UTC.
+/// The time code of a stamp, counted from the zero of the bag if it has one that is not later, else from midnight UTC.
 tl::expected<base::TimeCode, std::string> time_code_of(std::int64_t stamp, double field_rate,
                                                        std::optional<std::int64_t> zero);
 

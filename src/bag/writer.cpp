@@ -25,7 +25,7 @@ void append_number(Buffer& into, Number number) {
   append(into, {reinterpret_cast<const char*>(&number), sizeof number});
 }
 
-/// What `fill` appends, behind its size in four bytes.
+/// Appends what `fill` appends, preceded by its size in four bytes.
 template <typename Fill>
 void append_sized(Buffer& into, const Fill& fill) {
   const std::size_t at = into.size();
@@ -55,7 +55,7 @@ void append_field(Buffer& into, std::string_view name, ::ros::Time time) {
 
 Writer::Writer(file::PartFile& file, std::string compression) : file_(file), compression_(std::move(compression)) {
   write(magic);
-  // Until the end without a place of the index: so readers know that a bag is not whole.
+  // The position of the index stays 0 until the end: this marks the bag as incomplete.
   write(file_header(0));
 }
 
@@ -128,7 +128,7 @@ void Writer::end_chunk() {
   for (auto& topic : topics_) write_index(topic);
 }
 
-/// Of what is in the chunk, which begins where the file ends.
+/// The info record of the current chunk, which will be written at the end of the file.
 void Writer::append_chunk_info() {
   const auto is_in_chunk = [](const Topic& topic) { return !topic.entries.empty(); };
   const auto count = static_cast<std::uint32_t>(std::count_if(topics_.begin(), topics_.end(), is_in_chunk));

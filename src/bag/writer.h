@@ -1,4 +1,4 @@
-// Writing a bag.
+// Writes a bag.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,20 @@
 
 namespace trk_bridge::bag {
 
-/// A bag of format 2.0, as rosbag::Bag writes it, byte for byte where it is not compressed. That one keeps an entry for
-/// every message until the bag is closed; this one keeps a chunk of 768 KiB, and a record of less than 200 bytes of
-/// each chunk that is in the file. What is in the file can be read when the program dies. Not synchronised.
+/// Writes a bag of format 2.0; without compression the same bytes as rosbag::Bag. rosbag::Bag keeps an entry for every
+/// message until the bag is closed; this class keeps one chunk of 768 KiB, and less than 200 bytes for each chunk in
+/// the file. Everything in the file can be read if the program crashes. Not synchronised.
 class Writer {
  public:
-  /// Of a topic.
+  /// Index of a topic.
   using Connection = std::size_t;
 
-  /// `file` is an empty one, and lives longer; it is published by the caller. `compression` is none, bz2 or lz4. Throws
-  /// std::system_error, as do the others.
+  /// `file` is empty and must outlive the writer; the caller publishes it. `compression` is none, bz2 or lz4. All
+  /// functions throw std::system_error.
   Writer(file::PartFile& file, std::string compression);
 
-  /// `header` is the publisher's, without what follows from the message. It is in the bag once a message is.
+  /// `header` is that of the publisher, without the entries that follow from the message type. It is written with the
+  /// first message.
   template <typename Message>
   Connection connect(const std::string& topic, ::ros::M_string header) {
     header["topic"] = topic;
@@ -48,7 +49,7 @@ class Writer {
     if (chunk_.size() > chunk_size) end_chunk();
   }
 
-  /// Brings the last chunk and the index into the file. To be called once, at the end.
+  /// Writes the last chunk and the index. Call once, at the end.
   void close();
 
  private:
@@ -62,18 +63,18 @@ class Writer {
   struct Topic {
     std::string name;
     ::ros::M_string header;
-    std::optional<std::uint32_t> id;  // once there is a message
+    std::optional<std::uint32_t> id;  // set with the first message
     std::vector<Entry> entries;       // of the chunk
   };
 
-  /// Where the message's bytes belong.
+  /// Returns where to put the bytes of the message.
   std::uint8_t* add_message(Topic&, ::ros::Time, std::uint32_t size);
   static void append_connection(const Topic&, Buffer& into);
   void end_chunk();
   void append_chunk_info();
   void write_index(Topic&);
   std::string file_header(std::int64_t index_place) const;
-  /// Behind what was written before.
+  /// Appends to the file.
   void write(std::string_view bytes);
 
   file::PartFile& file_;

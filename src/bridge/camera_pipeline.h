@@ -86,8 +86,7 @@ struct CameraUpdate {
   std::optional<Eigen::Isometry3d> pose;           ///< studio_T_camera, m
   std::optional<base::CountedTimeCode> time_code;  ///< of parameters, if the protocol has one
   std::optional<CameraEncoders> encoders;          ///< likewise
-  std::optional<Uncalibrated>
-      uncalibrated;  ///< set if a calibration is wanted: CameraPipeline::calibrate() computes it
+  std::optional<Uncalibrated> uncalibrated;        ///< input of CameraPipeline::calibrate(), if one is wanted
 
   bool is_empty() const noexcept { return stamp == 0 && !constants; }
 };
