@@ -174,7 +174,7 @@ void report(const bridge::CameraStatistics& statistics, std::ostream& err) {
   };
   const auto& sequence = statistics.sequence;
   line(sequence.duplicates + sequence.late,
-       "are not in the bag: their counter came before, and trk_to_ros publishes none twice");
+       "are not in the bag: their counter is not new, and trk_to_ros publishes each counter once");
   line(statistics.dropped, "are not in the bag: " + camera::describe(statistics.drop_reason));
   line(statistics.withheld, "are without params: " + camera::describe(statistics.withhold_reason));
   line(statistics.without_camera_info, "are without camera_info: " + camera::describe(statistics.info_reason));

@@ -36,7 +36,7 @@ bool has_topic(const std::vector<Connection>& connections, const std::string& to
     if (!carries<Message>(connection)) {
       const std::string wanted = ::ros::message_traits::datatype<Message>();
       throw BagError("topic " + topic +
-                     (connection.type == wanted ? " has another form of " + wanted + " than this program knows"
+                     (connection.type == wanted ? " has another definition of " + wanted + " than this program"
                                                 : " is of type " + connection.type + ", not " + wanted));
     }
     found = true;

@@ -107,7 +107,7 @@ class Lz4 {
 Unpacked unpack_chunk(const std::string& compression, std::vector<std::uint8_t>& packed) {
   if (compression == rosbag::COMPRESSION_BZ2) return unpack<Bzip2>(packed);
   if (compression == rosbag::COMPRESSION_LZ4) return unpack<Lz4>(packed);
-  return {{}, "is packed in a way that is not known (" + compression + ")"};
+  return {{}, "has an unknown compression (" + compression + ")"};
 }
 
 std::vector<std::uint8_t> pack_chunk(const std::string& compression, std::vector<std::uint8_t>& bytes) {

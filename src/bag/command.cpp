@@ -17,10 +17,10 @@ namespace trk_bridge::bag {
 namespace {
 
 constexpr const char* help =
-    "The bag holds what trk_to_ros publishes of a take, on /NAME/params, /NAME/constants, /NAME/camera_info, /tf and "
-    "/tf_static. Without --date or --start it lies on 1970-01-02, because a take does not contain its day. The take "
-    "holds one set of parameters for every message of /NAME/params, or for every camera_info with a pose in tf; its "
-    "time code is that of the first stamp in UTC. A bag cut short by a crash gives what it holds.";
+    "The bag holds what trk_to_ros would publish for a take, on /NAME/params, /NAME/constants, /NAME/camera_info, /tf "
+    "and /tf_static. Without --date or --start its date is 1970-01-02, because a take does not contain its day. The "
+    "take holds one set of parameters for every message of /NAME/params, or for every camera_info with a pose in tf; "
+    "its time code is that of the first stamp in UTC. Of a bag that a crash cut short, everything in it is converted.";
 
 bool ends_in(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -42,16 +42,18 @@ T value_of(const tl::expected<T, std::string>& parsed, const char* option) {
 
 }  // namespace
 
-Command::Command(CLI::App& app) : command_(app.add_subcommand("bag", "Make a bag of a take, or a take of a bag")) {
+Command::Command(CLI::App& app) : command_(app.add_subcommand("bag", "Convert a take to a bag, or a bag to a take")) {
   command_->footer(help);
   command_->add_option("FROM", from_, "TAKE.trk or TAKE.bag")->required();
-  command_->add_option("TO", to_, "the other one")->required();
-  command_->add_flag("--overwrite", overwrite_, "Replace TO where it exists");
-  command_->add_option("--camera", camera_, "Its name in the bag (to a bag: camera; to a take: the only one)")
+  command_->add_option("TO", to_, "The result: TAKE.bag or TAKE.trk")->required();
+  command_->add_flag("--overwrite", overwrite_, "Replace TO if it exists");
+  command_
+      ->add_option("--camera", camera_,
+                   "Name of the camera in the bag (default: camera for a bag; the only one for a take)")
       ->type_name("NAME");
   command_
       ->add_option("--field-rate", field_rate_,
-                   "Video fields a second (to a bag: 50; to a take: as trk bag recorded it, else 50)")
+                   "Video fields a second (default: 50; for a take: as trk bag recorded it, else 50)")
       ->check(cli::number(ros1::field_rate_range.least, ros1::field_rate_range.most))
       ->type_name("HZ");
   command_
@@ -61,8 +63,9 @@ Command::Command(CLI::App& app) : command_(app.add_subcommand("bag", "Make a bag
       ->type_name("WORDS");
   command_->add_option("--studio-frame", studio_frame_, "Default: studio")->type_name("FRAME");
   command_
-      ->add_option("--camera-frame", camera_frame_,
-                   "The camera's own axes (to a bag: NAME; to a take: the frame of camera_info, which is optical)")
+      ->add_option(
+          "--camera-frame", camera_frame_,
+          "Frame of the camera axes (default: NAME for a bag; for a take the frame of camera_info, which is optical)")
       ->type_name("FRAME");
   add_options_to_bag();
   add_options_to_take();
@@ -70,7 +73,7 @@ Command::Command(CLI::App& app) : command_(app.add_subcommand("bag", "Make a bag
 
 void Command::add_options_to_bag() {
   auto* start =
-      command_->add_option("--start", start_, "When the first field was, instead of its time code")->type_name("TIME");
+      command_->add_option("--start", start_, "Time of the first field, instead of its time code")->type_name("TIME");
   auto* date = command_->add_option("--date", date_, "The day of the time code, in UTC")->type_name("YYYY-MM-DD");
   start->excludes(date);
   auto* optical = command_->add_option("--optical-frame", optical_frame_, "Default: NAME_optical")->type_name("FRAME");
@@ -80,9 +83,10 @@ void Command::add_options_to_bag() {
 }
 
 void Command::add_options_to_take() {
-  auto* input = command_->add_option("--input", input_, "params, or tf and camera_info (default: params if there are)")
-                    ->check(CLI::IsMember({"params", "tf"}));
-  auto* id = command_->add_option("--id", to_take_options_.id, "Camera number in place of the one in the bag")
+  auto* input =
+      command_->add_option("--input", input_, "params, or tf and camera_info (default: params if the bag has them)")
+          ->check(CLI::IsMember({"params", "tf"}));
+  auto* id = command_->add_option("--id", to_take_options_.id, "Camera id that replaces the one in the bag")
                  ->check(cli::whole_number(0, std::numeric_limits<std::uint32_t>::max()))
                  ->type_name("N");
   auto* width = command_->add_option("--chip-width", to_take_options_.chip_width, "For a bag without constants")
@@ -92,13 +96,13 @@ void Command::add_options_to_take() {
                      ->check(cli::positive_number())
                      ->type_name("MM");
   auto* optical = command_->add_flag("--camera-frame-is-optical", to_take_options_.camera_frame_is_optical,
-                                     "The axes of --camera-frame are optical ones");
+                                     "The axes of --camera-frame are optical");
   to_take_only_ = {input, id, width, height, optical};
 }
 
 void Command::refuse_options_of(const std::vector<CLI::Option*>& options, const char* what) const {
   for (const auto* option : options) {
-    if (option->count() > 0) throw CLI::ValidationError(option->get_name() + " is only for making " + what);
+    if (option->count() > 0) throw CLI::ValidationError(option->get_name() + " is only for converting " + what);
   }
 }
 
@@ -107,14 +111,15 @@ cli::ExitCode Command::run() {
   cli::LongRun run(std::cerr, ::isatty(STDERR_FILENO) == 1);
   const bool from_bag = is_named_bag(from_) || begins_as_bag(from_);
   if (from_bag == is_named_bag(to_)) {
-    throw CLI::ValidationError(from_bag ? "both " + from_ + " and " + to_ + " are bags: TO must be a take"
-                                        : to_ + ": the name of a bag ends in .bag; " + from_ + " is none either");
+    throw CLI::ValidationError(from_bag
+                                   ? "both " + from_ + " and " + to_ + " are bags: TO must be a take"
+                                   : to_ + ": the name of a bag ends in .bag, and " + from_ + " is not a bag either");
   }
   return from_bag ? to_take(run) : to_bag(run);
 }
 
 cli::ExitCode Command::to_bag(cli::LongRun& run) {
-  refuse_options_of(to_take_only_, "a take of a bag");
+  refuse_options_of(to_take_only_, "a bag to a take");
   TakeToBagOptions options;
   if (camera_) options.camera = *camera_;
   if (format_) options.format = value_of(ros1::parse_published_format(*format_), "--format");
@@ -131,7 +136,7 @@ cli::ExitCode Command::to_bag(cli::LongRun& run) {
 }
 
 cli::ExitCode Command::to_take(cli::LongRun& run) {
-  refuse_options_of(to_bag_only_, "a bag of a take");
+  refuse_options_of(to_bag_only_, "a take to a bag");
   if (to_take_options_.camera_frame_is_optical && !camera_frame_) {
     throw CLI::ValidationError("--camera-frame-is-optical: needs --camera-frame, whose axes it describes");
   }

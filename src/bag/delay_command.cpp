@@ -24,8 +24,8 @@ namespace {
 
 constexpr const char* help =
     "The bag has NAME/params and NAME/constants of trk_to_ros and the camera's video, stamped by one clock. The camera "
-    "should stand, pan quickly and stop, a few times. A positive delay is the video's: delay:= of ros_to_trk. A "
-    "negative one is tracking's: to be added to delay:= of trk_to_ros.";
+    "should stand still, pan quickly and stop, a few times. A positive delay means that the video is late: set delay:= "
+    "of ros_to_trk. A negative one means that tracking is late: add its amount to delay:= of trk_to_ros.";
 
 template <typename Message>
 bool is_of_type(const Connection& connection) {
@@ -75,9 +75,9 @@ void add_frame(const RawMessage& raw, delay::Meter& meter) {
   try {
     meter.add(stamp, cv_bridge::toCvCopy(message, "mono8")->image);
   } catch (const cv_bridge::Exception& error) {
-    throw BagError("a message of " + raw.connection.topic + " is no picture: " + error.what());
+    throw BagError("a message of " + raw.connection.topic + " is not a picture: " + error.what());
   } catch (const cv::Exception& error) {
-    throw BagError("a message of " + raw.connection.topic + " is no picture: " + error.what());
+    throw BagError("a message of " + raw.connection.topic + " is not a picture: " + error.what());
   }
 }
 
@@ -139,15 +139,15 @@ DelayCommand::DelayCommand(CLI::App& app)
   command_->footer(help);
   command_->add_option("BAG", bag_, "Recorded with params, constants and pictures of the camera")->required();
   command_->add_option("--camera", options_.camera, "Its name in the bag (default: the only one)")->type_name("NAME");
-  command_->add_option("--image", options_.image, "Its video (default: NAME/image_raw, or the only one)")
+  command_->add_option("--image", options_.image, "Topic of its video (default: NAME/image_raw, or the only one)")
       ->type_name("TOPIC");
   command_->add_option("--field-rate", field_rate_, "Fields a second (default: the rate of params)")
       ->check(cli::number(ros1::field_rate_range.least, ros1::field_rate_range.most))
       ->type_name("HZ");
-  command_->add_option("--most", options_.most_delay, "Delays up to S seconds are tried (default: 0.5)")
+  command_->add_option("--most", options_.most_delay, "Search delays up to S seconds (default: 0.5)")
       ->check(cli::number(delay::least_most_delay, delay::most_most_delay))
       ->type_name("S");
-  command_->add_option("--plot", plot_, "Draw the motion of both, and the correlation")
+  command_->add_option("--plot", plot_, "Plot both motions and their correlation")
       ->check(cli::is_svg)
       ->type_name("FILE.svg");
   command_->add_flag("--json", as_json_, "A JSON object");

@@ -164,7 +164,8 @@ void use_chip_options(Survey& survey, const BagToTakeOptions& options) {
   }
   if (!options.chip_width || !options.chip_height) {
     throw BagError(
-        "there are no constants, and CameraInfo has no millimetres: set --chip-width MM and --chip-height MM");
+        "there are no constants, and CameraInfo does not contain the chip size: set --chip-width MM and --chip-height "
+        "MM");
   }
   const auto& info = *survey.first;
   wire::CameraConstants constants;
@@ -220,7 +221,7 @@ class LensFits {
   }
   static void report(std::ostream& err, const char* what, double pixels) {
     if (pixels <= camera::plumb_bob_tolerance) return;
-    err << "trk: " << what << ": by at most " << pixels << " pixels\n";
+    err << "trk: " << what << ": by up to " << pixels << " pixels\n";
   }
 
   const wire::CameraConstants constants_;

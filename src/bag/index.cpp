@@ -26,14 +26,14 @@ std::optional<Chunk> chunk_of(Bytes& file, const Record& record) {
 }  // namespace
 
 void check_magic(Bytes& file) {
-  if (file.size() < magic.size()) throw BagError("not a bag: it is shorter than the first line of one");
+  if (file.size() < magic.size()) throw BagError("not a bag: it is shorter than the first line of a bag");
   if (file.at(0, magic.size()) == magic) return;
   throw BagError("not a bag of format 2.0: it does not begin with " + std::string(magic.substr(0, magic.size() - 1)));
 }
 
 void check_encryption(const Record& file_header) {
   if (file_header.header.text(rosbag::ENCRYPTOR_FIELD_NAME).empty()) return;
-  throw BagError("it is encrypted: rosbag decrypt makes one that can be read");
+  throw BagError("it is encrypted: decrypt it with rosbag decrypt");
 }
 
 std::optional<std::uint64_t> time_in(const HeaderFields& header, const std::string& name) {
@@ -61,12 +61,12 @@ tl::expected<Index, std::string> read_index(Bytes& file) {
     return tl::unexpected("its index cannot be read (" + why + ")");
   };
   const auto header = record_at(file, magic.size());
-  if (!header || header->op != rosbag::OP_FILE_HEADER) return unreadable("the header of the file is not sound");
+  if (!header || header->op != rosbag::OP_FILE_HEADER) return unreadable("the file header is malformed");
   check_encryption(*header);
   const auto place = header->header.number<std::uint64_t>(rosbag::INDEX_POS_FIELD_NAME);
   const auto connections = header->header.number<std::uint32_t>(rosbag::CONNECTION_COUNT_FIELD_NAME);
   const auto chunks = header->header.number<std::uint32_t>(rosbag::CHUNK_COUNT_FIELD_NAME);
-  if (!place || !connections || !chunks) return unreadable("the header of the file is not sound");
+  if (!place || !connections || !chunks) return unreadable("the file header is malformed");
   if (*place == 0) return tl::unexpected(std::string("its recorder did not close it"));
   Index index;
   std::uint64_t at = *place;

@@ -31,7 +31,7 @@ class LoadedChunk {
       if (!unpacked.fault.empty()) throw damaged(unpacked.fault);
       bytes_ = std::move(unpacked.bytes);
     }
-    if (!find_messages(wanted)) throw damaged("has a record that is not sound");
+    if (!find_messages(wanted)) throw damaged("has a malformed record");
     const auto by_time = [](const Message& one, const Message& other) { return one.time < other.time; };
     std::stable_sort(messages_.begin(), messages_.end(), by_time);
   }

@@ -142,12 +142,12 @@ void FieldSeries::report_gaps(std::ostream& err) const {
   if (gaps_.gaps > 0) {
     err << "trk: " << gaps_.fields << " fields are missing in " << gaps_.gaps << " gaps, the first of "
         << gaps_.first_fields << " after " << base::seconds_text(gaps_.first)
-        << ": the take holds the other fields without gaps, and is shorter by them\n";
+        << ": the take holds the other fields without gaps, so it is shorter\n";
   }
   const auto& counts = sequence_.counts();
   if (counts.duplicates + counts.late + counts.restarts > 0) {
-    err << "trk: " << counts.duplicates << " counters came twice, " << counts.late << " late, and " << counts.restarts
-        << " times the counter restarted: all of these fields are in the take\n";
+    err << "trk: " << counts.duplicates << " duplicate and " << counts.late << " late counters, and " << counts.restarts
+        << " restarts of the counter: all of these fields are in the take\n";
   }
 }
 

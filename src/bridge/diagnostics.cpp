@@ -35,7 +35,7 @@ const char* counter_text(base::CounterState state) {
     case base::CounterState::counts:
       return "counts";
     case base::CounterState::cycles:
-      return "begins again every few records";
+      return "restarts every few records";
     case base::CounterState::frozen:
       return "stands still";
     case base::CounterState::ignored:
@@ -96,19 +96,19 @@ Finding silence(const CameraReport& now, const CameraOptions& options) {
     case SourceState::waiting:
       return {Condition::waiting, Level::stale, now.source.waiting_for};
     case SourceState::nothing_valid:
-      return {Condition::nothing_valid, Level::warn, "datagrams come but none is trk: " + fault_text(now.reader)};
+      return {Condition::nothing_valid, Level::warn, "datagrams arrive, but none is trk: " + fault_text(now.reader)};
     case SourceState::only_refused:
       return {Condition::only_refused, Level::warn,
-              "datagrams come, but only from senders that are not allowed, last " +
+              "datagrams arrive, but only from senders that are not allowed, last " +
                   transport::to_string(now.source.last_refused)};
     default:
       break;
   }
   if (options.id && now.reader.unknown_id_records > 0) {
     return {Condition::other_ids_only, Level::warn,
-            "parameters come, but none with id " + std::to_string(*options.id) + "; seen: " + ids_text(now.reader)};
+            "parameters arrive, but none with id " + std::to_string(*options.id) + "; seen: " + ids_text(now.reader)};
   }
-  return {Condition::constants_only, Level::warn, "records come, but no parameters of this camera yet"};
+  return {Condition::constants_only, Level::warn, "records arrive, but no parameters of this camera yet"};
 }
 
 Finding state(const CameraReport& now, const CameraReport& before, const CameraOptions& options, double field_rate) {
@@ -121,7 +121,7 @@ Finding state(const CameraReport& now, const CameraReport& before, const CameraO
   if (age > silence_after(field_rate)) {
     if (now.camera.sequence.duplicates > before.camera.sequence.duplicates) {
       return {Condition::counter_stands, Level::warn,
-              "nothing new for " + duration_text(age) + ": records come, but their counter stands still"};
+              "nothing new for " + duration_text(age) + ": records arrive, but their counter stands still"};
     }
     const std::string why = now.source.waiting_for.empty() ? "" : "; waiting for " + now.source.waiting_for;
     return {Condition::nothing_new, Level::warn, "nothing new for " + duration_text(age) + why};
@@ -137,7 +137,7 @@ void add_source_findings(std::vector<Finding>& found, const CameraReport& now, c
     warn(found, Condition::malformed, "malformed records: " + fault_text(now.reader));
   }
   if (now.source.doubtful > before.source.doubtful) {
-    warn(found, Condition::doubtful, std::string("records are taken in spite of: ") + now.source.last_doubt);
+    warn(found, Condition::doubtful, std::string("records are accepted despite: ") + now.source.last_doubt);
   }
   if (now.source.refused > before.source.refused && now.source.state != SourceState::only_refused) {
     warn(found, Condition::refused,
@@ -164,16 +164,16 @@ void add_sender_findings(std::vector<Finding>& found, const CameraReport& now, c
   if (camera.foreign > before.camera.foreign) {
     warn(found, Condition::foreign_sender,
          "records of a second sender, " + transport::to_string(camera.foreign_sender) +
-             ", are ignored: " + transport::to_string(camera.sender) + " has this camera");
+             ", are ignored: this camera follows " + transport::to_string(camera.sender));
   }
   if (camera.ignores_ports) {
     warn(found, Condition::ports_change,
-         "the sender changes its port with every datagram: senders are told apart by their address alone");
+         "the sender changes its port with every datagram: senders are distinguished by their address only");
   }
   const auto counter = camera.sequence.state;
   if (counter == base::CounterState::cycles || counter == base::CounterState::frozen) {
     warn(found, Condition::uncounted,
-         std::string("the counter ") + counter_text(counter) + ": records are published as they come");
+         std::string("the counter ") + counter_text(counter) + ": records are published in order of arrival");
   }
 }
 
@@ -185,7 +185,7 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
     warn(found, Condition::lost, "lost " + std::to_string(camera.sequence.lost - old.sequence.lost));
   }
   if (camera.id_changes > old.id_changes) {
-    warn(found, Condition::several_ids, "the id changes: give the camera the id it is to follow");
+    warn(found, Condition::several_ids, "the id changes: set the id that this camera should follow");
   }
   if (camera.unstampable > old.unstampable) {
     warn(found, Condition::unstampable, "records dropped: their time is outside of 1970 to 2106");
@@ -205,7 +205,7 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
     warn(found, Condition::withheld, "params withheld: " + camera::describe(camera.withhold_reason));
   } else if (!camera.has_lens) {
     found.push_back({Condition::pose_only, Level::ok,
-                     "the records have no lens: of them, tf and, where there are any, lens_encoders are published"});
+                     "the records have no lens: only tf and, if present, lens_encoders are published"});
   } else if (no_constants && options.publish_camera_info && camera.sequence.accepted > 0) {
     warn(found, Condition::no_constants, "no constants yet: no camera_info");
   }
@@ -221,7 +221,7 @@ void add_camera_findings(std::vector<Finding>& found, const CameraReport& now, c
   }
   if (camera.held_stamps > old.held_stamps) {
     warn(found, Condition::stamps_held,
-         "the clock stands or stepped back: stamps are " + duration_text(seconds_between(0, camera.stamp_ahead)) +
+         "the clock stopped or stepped back: stamps are " + duration_text(seconds_between(0, camera.stamp_ahead)) +
              " ahead");
   }
   if (camera.clock_steps > old.clock_steps) {

@@ -54,7 +54,7 @@ Finding state(const TfReport& now, const TfReport& before, double rate) {
 
 void add_clock_findings(std::vector<Finding>& found, const TfReport& now, const TfReport& before) {
   if (now.gate.restarts > before.gate.restarts) {
-    warn(found, Condition::tf_restarted, "tf was cleared and read on: " + describe(now.gate.last_restart));
+    warn(found, Condition::tf_restarted, "tf was cleared and continues: " + describe(now.gate.last_restart));
   } else if (now.gate.refused > before.gate.refused) {
     warn(found, Condition::tf_refused, "transforms refused: " + describe(now.gate.last_refused));
   }
@@ -73,11 +73,12 @@ void add_lens_findings(std::vector<Finding>& found, const TfReport& now, const T
   if (now.tf.infos == 0 || now.tf.info_is_refused) return;
   if (now.tf.tangential > visible_pixels) {
     warn(found, Condition::tangential_lost,
-         "the lens has tangential distortion, which trk cannot carry: up to " + pixels_text(now.tf.tangential) + " px");
+         "the lens has tangential distortion, which trk cannot represent: up to " + pixels_text(now.tf.tangential) +
+             " px");
   }
   if (now.tf.residual > visible_pixels) {
     warn(found, Condition::lens_inexact,
-         "k1 and k2 describe the distortion to " + pixels_text(now.tf.residual) + " px only");
+         "k1 and k2 describe the distortion with an error of up to " + pixels_text(now.tf.residual) + " px");
   }
   if (now.tf.aspect > visible_pixels) {
     warn(found, Condition::rows_disagree,
@@ -95,18 +96,18 @@ std::optional<Finding> state(const SinkReport& now, const SinkReport& before) {
   }
   if (const auto busy_since = now.state.busy_since; busy_since != 0 && seconds_between(busy_since, now.time) > 1) {
     return Finding{Condition::sink_hangs, Level::error,
-                   "nothing goes out: no answer for " + duration_text(seconds_between(busy_since, now.time)) +
+                   "nothing is sent: no answer for " + duration_text(seconds_between(busy_since, now.time)) +
                        (now.queue ? "; " + std::to_string(now.queue->queued) + " records wait" : std::string())};
   }
   if (!now.state.cannot_open.empty()) {
-    return Finding{Condition::sink_fails, Level::error, "nothing goes out: " + now.state.cannot_open};
+    return Finding{Condition::sink_fails, Level::error, "nothing is sent: " + now.state.cannot_open};
   }
   if (sink.fails && sink.last_success < before.time) {
-    return Finding{Condition::sink_fails, Level::error, "nothing goes out: " + describe(sink.last_fault)};
+    return Finding{Condition::sink_fails, Level::error, "nothing is sent: " + describe(sink.last_fault)};
   }
   if (const auto failed = sink.failed_sets - before.sink.failed_sets; failed > 0) {
     return Finding{Condition::sink_loses, Level::warn,
-                   std::to_string(failed) + " sets did not go out whole: " + describe(sink.last_fault)};
+                   std::to_string(failed) + " sets were not sent completely: " + describe(sink.last_fault)};
   }
   if (sink.sent.params > before.sink.sent.params) {
     return sending(rate_between(before.sink.sent.params, sink.sent.params, before.time, now.time));
@@ -150,8 +151,8 @@ void add_timing_findings(std::vector<Finding>& found, const SinkReport& now, con
   if (timing.negative * 20 <= timing.departures) return;
   warn(found, Condition::delay_too_short,
        std::to_string(timing.negative) + " of " + std::to_string(timing.departures) +
-           " sets were sent older than the delay says, since no newer sample was there: margin " +
-           timing.margin_text() + " fields");
+           " sets were older than the delay, because no newer sample had arrived: margin " + timing.margin_text() +
+           " fields");
 }
 
 void add_outlet_findings(std::vector<Finding>& found, const SinkReport& now, const SinkReport& before) {
@@ -166,7 +167,7 @@ void add_outlet_findings(std::vector<Finding>& found, const SinkReport& now, con
   }
   if (sink.left_out_id != 0) {
     found.push_back({Condition::id_left_out, Level::ok,
-                     "id " + std::to_string(sink.left_out_id) + " is left out: the receiver takes none"});
+                     "id " + std::to_string(sink.left_out_id) + " is not sent: the receiver accepts no ids"});
   }
   if (!now.queue || now.queue->failed) return;
   const auto drops = now.queue->drops - (before.queue ? before.queue->drops : 0);

@@ -11,9 +11,10 @@ using camera::CameraReason;
 std::string describe(OutletReason reason) {
   switch (reason) {
     case OutletReason::too_many_ids:
-      return "constants of more than " + std::to_string(OutletWriter::most_ids) + " ids came; more are not accepted";
+      return "constants of more than " + std::to_string(OutletWriter::most_ids) +
+             " ids were received; more are not accepted";
     case OutletReason::outdated:
-      return "the oldest parameters are left out, because the sink does not keep up";
+      return "the oldest parameters were dropped, because the sink does not keep up";
     case OutletReason::too_slow:
       return "the recording has ended, because the sink could not keep up; it holds everything before";
   }

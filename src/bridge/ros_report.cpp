@@ -26,19 +26,21 @@ std::vector<Finding> findings(const RosReport& now, const RosReport&) {
   std::vector<Finding> found;
   if (now.master == MasterState::silent) {
     warn(found, Condition::master_silent,
-         "the master at " + now.master_uri + " does not answer: connections stay, nobody finds new ones");
+         "the master at " + now.master_uri + " does not answer: existing connections stay, but no new ones are made");
   }
   if (now.master == MasterState::forgot) {
     warn(found, Condition::master_forgot,
-         "the master does not know this node any more, it was restarted: connections stay, nobody finds new ones until "
+         "the master does not know this node any more, it was restarted: existing connections stay, but no new ones "
+         "are made until "
          "the node is restarted, too");
   }
   if (now.is_simulated && now.time - now.ros_time_moved > ros_time_stands_after) {
     warn(found, Condition::ros_time_stands,
          now.ros_time == 0
-             ? std::string("use_sim_time is set, but nothing comes on /clock: ROS time is 0. Without a simulation or "
-                           "`rosbag play --clock`: rosparam delete /use_sim_time, then restart the node")
-             : "use_sim_time is set, and /clock stands or is silent for " +
+             ? std::string(
+                   "use_sim_time is set, but nothing is published on /clock: ROS time is 0. Without a simulation or "
+                   "`rosbag play --clock`: rosparam delete /use_sim_time, then restart the node")
+             : "use_sim_time is set, and /clock stands or has been silent for " +
                    duration_text(seconds_between(now.ros_time_moved, now.time)));
   }
   return found;

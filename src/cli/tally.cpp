@@ -44,7 +44,7 @@ void Tally::summarise(const transport::SourceStatistics& source, std::ostream& o
       << source.malformed << ", refused " << source.refused << ", kernel drops " << source.kernel_drops
       << ", overwritten " << source.overwritten << '\n';
   if (source.doubtful != 0) {
-    out << "trk: " << source.doubtful << " records were taken in spite of: " << source.last_doubt << '\n';
+    out << "trk: " << source.doubtful << " records were accepted despite: " << source.last_doubt << '\n';
   }
   for (const auto& [key, sequence] : cameras_) {
     const auto& counts = sequence.counts();

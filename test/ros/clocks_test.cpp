@@ -196,7 +196,7 @@ TEST_F(SimulatedTime, ABagThatLoopsIsFollowedAtOnce) {
 
 TEST_F(SimulatedTime, ThatStandsIsShownUntilItRuns) {
   ASSERT_TRUE(starts());
-  EXPECT_TRUE(diagnostics.reports(ros(), DiagnosticStatus::WARN, "/clock stands or is silent for "));
+  EXPECT_TRUE(diagnostics.reports(ros(), DiagnosticStatus::WARN, "/clock stands or has been silent for "));
   play();
   EXPECT_TRUE(diagnostics.reports(ros(), DiagnosticStatus::OK, "ROS time is /clock"));
 }
@@ -216,7 +216,7 @@ class SilentClock : public NodeProcessTest, public ::testing::WithParamInterface
 
 TEST_P(SilentClock, IsAWarningInTheDiagnosticsAndTheLogOfEveryNode) {
   start();
-  const char* const reason = "use_sim_time is set, but nothing comes on /clock";
+  const char* const reason = "use_sim_time is set, but nothing is published on /clock";
   EXPECT_TRUE(diagnostics.reports(status_name("ROS"), DiagnosticStatus::WARN, reason));
   node->signal(SIGINT);
   EXPECT_THAT(node->rest_of_err(), AllOf(HasSubstr(reason), HasSubstr("rosparam delete /use_sim_time")));

@@ -112,7 +112,7 @@ TEST_F(Conditions, TheFirstRateIsThatOfTheRecordsSinceTheStart) {
 TEST_F(Conditions, MalformedDatagramsCostThemselvesAlone) {
   ASSERT_NO_FATAL_FAILURE(open());
   tracker->send_bytes("hello");
-  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "datagrams come but none is trk"));
+  EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "datagrams arrive, but none is trk"));
   tracker->send(test::params(1));
   tracker->send_bytes(std::string("DMC01\0PA1 1 2 3 4", 17));
   tracker->send_bytes("");

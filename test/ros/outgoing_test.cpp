@@ -241,7 +241,7 @@ TEST_F(OnAFullDisk, ASinkCostsNoOtherSinkAnythingAndIsOverWhenThereIsRoom) {
     const auto* status = diagnostics.find(status_name(file));
     return status != nullptr && status->level == DiagnosticStatus::ERROR;
   }));
-  EXPECT_THAT(diagnostics.find(status_name(file))->message, HasSubstr("nothing goes out: the system refused"));
+  EXPECT_THAT(diagnostics.find(status_name(file))->message, HasSubstr("nothing is sent: the system refused"));
   EXPECT_EQ(diagnostics.value(status_name(receiver.url()), "errors"), "0");
 
   const rlimit room{RLIM_INFINITY, RLIM_INFINITY};

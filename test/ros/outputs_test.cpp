@@ -174,7 +174,7 @@ TEST_F(Outputs, ASegmentThatIsNeverFinished) {
   slot.make_segment(544);
   ASSERT_NO_FATAL_FAILURE(start_with("shm:" + std::to_string(slot.number())));
   expect_live(250, [&] {
-    EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing goes out: shm slot " + std::to_string(slot.number())));
+    EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing is sent: shm slot " + std::to_string(slot.number())));
     expect_live_is_ok();
   });
   end();
@@ -225,7 +225,7 @@ TEST_F(Outputs, AFullDisk) {
   ASSERT_EQ(::mount("trk_bridge_test", folder.path().c_str(), "tmpfs", 0, "size=16k"), 0);
   ASSERT_NO_FATAL_FAILURE(start_with("file:" + folder / "take.trk"));
   expect_live(400, [&] {
-    EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing goes out: the system refused: No space left on device"));
+    EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing is sent: the system refused: No space left on device"));
     expect_live_is_ok();
   });
   end();
@@ -253,7 +253,7 @@ TEST_F(Outputs, StorageThatDoesNotAnswer) {
   const HungStorage storage(folder.path());
   ASSERT_NO_FATAL_FAILURE(start_with("file:" + folder / "take.trk"));
   expect_live(200, [&] {
-    EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing goes out: no answer for "));
+    EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing is sent: no answer for "));
     expect_live_is_ok();
   });
   const std::string said = end();
@@ -268,7 +268,7 @@ TEST_F(Outputs, AFifoThatNobodyReadsAnyMore) {
   ASSERT_EQ(::fcntl(reader.get(), F_SETPIPE_SZ, 4096), 4096);
   ASSERT_NO_FATAL_FAILURE(start_with("file:" + fifo));
   expect_live(250, [&] {
-    EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing goes out: no answer for "));
+    EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing is sent: no answer for "));
     expect_live_is_ok();
   });
   EXPECT_THAT(end(), HasSubstr("fifo was not closed in order: it does not respond and was abandoned; "));
@@ -277,7 +277,7 @@ TEST_F(Outputs, AFifoThatNobodyReadsAnyMore) {
 TEST_F(Outputs, AHostWithoutRoute) {
   ASSERT_NO_FATAL_FAILURE(start_with("udp://192.0.2.1:7000"));
   expect_live(200, [&] {
-    EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing goes out: the system refused: Network is unreachable"));
+    EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing is sent: the system refused: Network is unreachable"));
     expect_live_is_ok();
   });
   end();

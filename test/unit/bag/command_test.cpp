@@ -106,7 +106,7 @@ TEST_F(BagCommandTest, ALineThatIsNotSoundIsAnErrorAndLeavesNothing) {
 
 TEST_F(BagCommandTest, WrongOptionsAreUsageErrors) {
   EXPECT_EQ(run({take, bag, "--input", "tf"}), 2);
-  EXPECT_THAT(err_text, HasSubstr("--input is only for making a take of a bag"));
+  EXPECT_THAT(err_text, HasSubstr("--input is only for converting a bag to a take"));
   EXPECT_EQ(run({take, bag, "--date", "yesterday"}), 2);
   EXPECT_THAT(err_text, HasSubstr("\"yesterday\" is not a date: YYYY-MM-DD"));
   EXPECT_EQ(run({take, bag, "--start", "now"}), 2);

@@ -69,7 +69,7 @@ TEST_F(Diagnostics, DatagramsThatAreNotTrk) {
   now.source.malformed = 3;
   now.reader.has_fault = true;
   now.reader.last_fault = wire::Fault{wire::Reason::bad_magic};
-  expect(Level::warn, "datagrams come but none is trk: " + wire::describe({wire::Reason::bad_magic}));
+  expect(Level::warn, "datagrams arrive, but none is trk: " + wire::describe({wire::Reason::bad_magic}));
   EXPECT_EQ(value("malformed"), "3");
 }
 
@@ -176,7 +176,7 @@ TEST_F(Diagnostics, ASecondSenderIsNamedWithTheOneThatIsFollowed) {
   now.camera.foreign = 50;
   now.camera.sender = {transport::SenderKind::ipv4, {192, 0, 2, 7}, 5000};
   now.camera.foreign_sender = {transport::SenderKind::ipv4, {192, 0, 2, 8}, 6000};
-  expect(Level::warn, "records of a second sender, 192.0.2.8:6000, are ignored: 192.0.2.7:5000 has this camera");
+  expect(Level::warn, "records of a second sender, 192.0.2.8:6000, are ignored: this camera follows 192.0.2.7:5000");
   EXPECT_EQ(value("foreign"), "50");
 }
 
@@ -190,10 +190,10 @@ TEST_F(Diagnostics, AFailoverIsAnEventThatNamesBoth) {
 
 TEST_F(Diagnostics, ACounterThatIsNotTrustedIsNamed) {
   now.camera.sequence.state = base::CounterState::frozen;
-  expect(Level::warn, "the counter stands still: records are published as they come");
+  expect(Level::warn, "the counter stands still: records are published in order of arrival");
   EXPECT_EQ(value("counter"), "stands still");
   now.camera.sequence.state = base::CounterState::cycles;
-  expect(Level::warn, "the counter begins again every few records");
+  expect(Level::warn, "the counter restarts every few records");
   now.camera.sequence.state = base::CounterState::ignored;
   EXPECT_EQ(status().level, Level::ok) << "as the parameter asks";
 }
@@ -306,7 +306,7 @@ TEST_F(Diagnostics, RecordsTakenInSpiteOfAFaultAreAWarning) {
   now.source.last_doubt = before.source.last_doubt = "wrong checksum";
   expect(Level::ok, "receiving");
   now.source.doubtful = 6;
-  expect(Level::warn, "records are taken in spite of: wrong checksum");
+  expect(Level::warn, "records are accepted despite: wrong checksum");
   EXPECT_EQ(value("taken in spite of a fault"), "6");
 }
 

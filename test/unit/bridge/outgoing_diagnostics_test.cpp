@@ -121,7 +121,7 @@ TEST_F(TfDiagnostics, ClocksThatWereFollowedOrRefusedAreShownWithTheReason) {
   now.gate.restarts = 1;
   now.gate.last_restart = {StampJump::Kind::back, "crane1", "/crane_driver", 60};
   const std::string reason = "the stamps of frame crane1 from /crane_driver went back by 60.0 s";
-  expect(status(), Level::warn, "tf was cleared and read on: " + reason);
+  expect(status(), Level::warn, "tf was cleared and continues: " + reason);
   EXPECT_THAT(status().message, Not(HasSubstr("refused")));
   EXPECT_EQ(value_of(status(), "last tf restart"), reason);
   before.gate = now.gate;
@@ -167,8 +167,8 @@ TEST_F(TfDiagnostics, WhatTheLensLosesIsShownWithItsSize) {
   now.tf.residual = 0.5;
   now.tf.aspect = 3;
   const auto shown = status();
-  expect(shown, Level::warn, "tangential distortion, which trk cannot carry: up to 1.250 px");
-  expect(shown, Level::warn, "k1 and k2 describe the distortion to 0.500 px");
+  expect(shown, Level::warn, "tangential distortion, which trk cannot represent: up to 1.250 px");
+  expect(shown, Level::warn, "k1 and k2 describe the distortion with an error of up to 0.500 px");
   expect(shown, Level::warn, "fx and fy do not agree with the chip's size: up to 3.000 px");
   EXPECT_EQ(value_of(shown, "lens fit residual (px)"), "0.500");
   EXPECT_EQ(value_of(shown, "tangential lost (px)"), "1.250");
@@ -253,7 +253,7 @@ TEST_F(SinkDiagnostics, WhatCannotBeOpenedIsAnErrorWithTheReason) {
   now.state.is_open = false;
   now.state.cannot_open = "take.trk: cannot be written: it exists";
   fail(10);
-  expect(status(), Level::error, "nothing goes out: take.trk: cannot be written: it exists");
+  expect(status(), Level::error, "nothing is sent: take.trk: cannot be written: it exists");
 }
 
 TEST_F(SinkDiagnostics, AWriteThatTakesLongIsAnErrorWhileItLasts) {
@@ -261,7 +261,7 @@ TEST_F(SinkDiagnostics, AWriteThatTakesLongIsAnErrorWhileItLasts) {
   now.state.busy_since = now.time - second / 2;
   expect(status(), Level::ok, "sending");
   now.state.busy_since = now.time - 5 * second / 2;
-  expect(status(), Level::error, "nothing goes out: no answer for 2.5 s; 120 records wait");
+  expect(status(), Level::error, "nothing is sent: no answer for 2.5 s; 120 records wait");
 }
 
 TEST_F(SinkDiagnostics, ANoticeIsShownAndNoFault) {
@@ -272,13 +272,13 @@ TEST_F(SinkDiagnostics, ANoticeIsShownAndNoFault) {
 TEST_F(SinkDiagnostics, NothingThatGoesOutIsAnError) {
   fail(10);
   now.sink.last_success = before.time - 1;
-  expect(status(), Level::error, "nothing goes out: the system refused: No space left on device");
+  expect(status(), Level::error, "nothing is sent: the system refused: No space left on device");
   EXPECT_EQ(value_of(status(), "errors"), "10");
 }
 
 TEST_F(SinkDiagnostics, SomeThatDoNotAreAWarning) {
   fail(3);
-  expect(status(), Level::warn, "3 sets did not go out whole: the system refused");
+  expect(status(), Level::warn, "3 sets were not sent completely: the system refused");
 }
 
 TEST_F(SinkDiagnostics, AfterwardsItIsInOrderAndTheErrorIsRemembered) {
@@ -328,14 +328,14 @@ TEST_F(SinkDiagnostics, OnlyGrowthIsAFinding) {
 
 TEST_F(SinkDiagnostics, AnIdThatIsLeftOutIsShownAndNoFault) {
   now.sink.left_out_id = 7;
-  expect(status(), Level::ok, "id 7 is left out: the receiver takes none");
+  expect(status(), Level::ok, "id 7 is not sent: the receiver accepts no ids");
 }
 
 TEST_F(SinkDiagnostics, QueuesAreShownWhereThereAreAny) {
   EXPECT_EQ(value_of(status(), "queued"), "no such key");
   now.queue = before.queue = OutletQueueStatistics{3, 5, false};
   now.queue->drops = 9;
-  expect(status(), Level::warn, "4 records not sent: the oldest parameters are left out");
+  expect(status(), Level::warn, "4 records not sent: the oldest parameters were dropped");
   EXPECT_EQ(value_of(status(), "queued"), "3");
   EXPECT_EQ(value_of(status(), "queue drops"), "9");
 }

@@ -47,9 +47,9 @@ TEST_F(RosDiagnostics, SimulatedTimeThatStands) {
   now.ros_time_moved = now.time - 3 * second;
   expect(Level::ok, "the system's clock");
   now.is_simulated = true;
-  expect(Level::warn, "/clock stands or is silent for 3.0 s");
+  expect(Level::warn, "/clock stands or has been silent for 3.0 s");
   now.ros_time = 0;
-  expect(Level::warn, "nothing comes on /clock");
+  expect(Level::warn, "nothing is published on /clock");
   expect(Level::warn, "rosparam delete /use_sim_time");
   now.ros_time_moved = now.time - second;
   expect(Level::ok, "ROS time is /clock");

@@ -81,7 +81,7 @@ TEST(FreeDProgram, DumpShowsCountsAndDoubts) {
   EXPECT_THAT(line, testing::Not(HasSubstr("fov"))) << "there is no lens";
   dump.signal(SIGTERM);
   dump.rest_of_out();
-  EXPECT_THAT(dump.rest_of_err(), HasSubstr("1 records were taken in spite of: wrong checksum"));
+  EXPECT_THAT(dump.rest_of_err(), HasSubstr("1 records were accepted despite: wrong checksum"));
   EXPECT_EQ(dump.wait(), 0);
 }
 

@@ -395,7 +395,7 @@ TEST_F(RelayTest, ConstantsOfTooManyIdsAreRefused) {
   add_gate();
   EXPECT_EQ(run(), cli::exit_failed);
   EXPECT_EQ(gate.count(), 256u);
-  EXPECT_THAT(err.str(), HasSubstr("constants of more than 256 ids came; more are not accepted"));
+  EXPECT_THAT(err.str(), HasSubstr("constants of more than 256 ids were received; more are not accepted"));
   EXPECT_THAT(err.str(), HasSubstr("not passed on: 44 records: "));
 }
 
