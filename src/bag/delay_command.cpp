@@ -145,7 +145,7 @@ DelayCommand::DelayCommand(CLI::App& app)
       ->check(cli::number(ros1::field_rate_range.least, ros1::field_rate_range.most))
       ->type_name("HZ");
   command_->add_option("--most", options_.most_delay, "Search delays up to S seconds (default: 0.5)")
-      ->check(cli::number(delay::least_most_delay, delay::most_most_delay))
+      ->check(cli::number(delay::min_search_range, delay::max_search_range))
       ->type_name("S");
   command_->add_option("--plot", plot_, "Plot both motions and their correlation")
       ->check(cli::is_svg)

@@ -21,7 +21,7 @@ namespace {
 
 std::string quoted(const std::string& text) { return '"' + text + '"'; }
 
-/// The subcommand that the arguments have come to, else the program itself.
+/// The subcommand in the arguments, else the program itself.
 const CLI::App& asked_for(const CLI::App& app) {
   const auto parsed = app.get_subcommands();
   return parsed.empty() ? app : *parsed.front();
@@ -31,7 +31,8 @@ bool is_command(const CLI::App& app, const std::string& name) {
   return !app.get_subcommands([&name](const CLI::App* command) { return command->get_name() == name; }).empty();
 }
 
-/// Throws where the first argument should be a subcommand and is none: CLI11 would only say that it did not expect it.
+/// Throws if the first argument should be a subcommand but is not: the error of CLI11 would only say that it was not
+/// expected.
 void check_command(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> names;
   std::string all;
@@ -48,7 +49,7 @@ void check_command(const CLI::App& app, int argc, const char* const* argv) {
                              (meant ? ", did you mean " + *meant + '?' : "; commands are " + all));
 }
 
-/// What was not expected, and the option that it was probably meant to be.
+/// The unexpected argument, and the option that was probably meant.
 std::string extras_error(const CLI::App& app) {
   const CLI::App& command = asked_for(app);
   const auto extras = app.remaining(true);
@@ -63,7 +64,7 @@ std::string extras_error(const CLI::App& app) {
   return "unknown option " + given + (meant ? ", did you mean " + *meant + "?" : "");
 }
 
-/// One line, and where more is to be read.
+/// Prints one line that refers to --help.
 ExitCode report_usage(const CLI::App& app, const std::string& what) {
   std::string help = app.get_name();
   if (const CLI::App& command = asked_for(app); &command != &app) help += ' ' + command.get_name();

@@ -1,4 +1,4 @@
-// Lines on a program's output, and how the program ends when they cannot be written.
+// Writes lines to the output of a program, and handles write errors.
 #pragma once
 
 #include <iosfwd>
@@ -13,9 +13,9 @@ class CheckedOutput {
  public:
   explicit CheckedOutput(std::ostream& out) : out_(out) {}
 
-  /// Writes the text and a newline; false when that failed, now or before.
+  /// Writes the text and a newline; false if this or an earlier write failed.
   bool line(std::string_view text, bool flush);
-  /// Writes what is left, and an error to `err`. That the reader closed the pipe is an ordinary end.
+  /// Flushes the output, and writes an error to `err`. A pipe that its reader closed is not an error.
   ExitCode finish(std::ostream& err);
 
  private:

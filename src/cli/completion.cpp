@@ -7,7 +7,7 @@
 namespace trk_bridge::cli {
 namespace {
 
-/// A function of the script, which its specifications name.
+/// The name of a function of the script that its specifications use.
 constexpr const char* words_of_zsh = "_trk_bridge_words";
 
 std::string joined(const std::vector<std::string>& words, const char* between = " ") {
@@ -16,7 +16,7 @@ std::string joined(const std::vector<std::string>& words, const char* between = 
   return text;
 }
 
-/// What the value of an option or argument may be.
+/// The possible values of an option or argument.
 struct Values {
   std::vector<std::string> words;
   bool is_file = false;
@@ -40,7 +40,7 @@ std::string bash_branch(const CLI::App& command, const Completions& known) {
   std::string with_values, arguments = ":";
   for (const auto* option : visible_options(command)) {
     if (option->get_positional()) {
-      // All of a command's arguments are of one kind, or files.
+      // All arguments of a command are of one kind, or files.
       arguments = bash_values(values_of(*option, known));
       continue;
     }
@@ -54,7 +54,7 @@ std::string bash_branch(const CLI::App& command, const Completions& known) {
   return branch + "      esac\n";
 }
 
-/// Within single quotes, as a part of zsh's specifications.
+/// Escaped for a specification of zsh in single quotes.
 std::string zsh_text(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -104,7 +104,7 @@ std::string bash_completion(const CLI::App& app, const Completions& known) {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= words= files=
   local -i i
   COMPREPLY=()
-  # A URL is several words to bash, which ends words at colons.
+  # bash splits a URL into several words at its colons.
   if [[ $previous == file && $current == : ]]; then
     compopt -o filenames 2>/dev/null
     mapfile -t COMPREPLY < <(compgen -f)
@@ -175,7 +175,7 @@ std::string zsh_completion(const CLI::App& app, const Completions& known) {
   for (const auto* command : visible_commands(app)) {
     script += "        " + command->get_name() + ") _arguments" + zsh_specifications(*command, known) + " ;;\n";
   }
-  // Autoloaded, the file is the function itself; sourced, it defines it.
+  // When autoloaded, the file is the body of the function; when sourced, it defines the function.
   script += "      esac ;;\n  esac\n}\n\nif [[ $funcstack[1] == " + function + " ]]; then\n  " + function +
             " \"$@\"\nelse\n  compdef " + function + ' ' + name + "\nfi\n";
   return script;

@@ -1,4 +1,4 @@
-// Scripts by which shells complete a command line.
+// Scripts for command line completion in shells.
 #pragma once
 
 #include <map>
@@ -9,12 +9,12 @@
 
 namespace trk_bridge::cli {
 
-/// What a value may be, by its argument's name ("SOURCE", "--preset"). After a word that ends in `:` or `/` no space
-/// follows, and the rest of one that begins with `file:` is completed as a path.
+/// Possible values by the name of their argument ("SOURCE", "--preset"). No space is added after a word that ends in
+/// `:` or `/`, and what follows `file:` is completed as a path.
 using Completions = std::map<std::string, std::vector<std::string>>;
 
-/// Subcommands, options and values of `app`, as it declares them. Where nothing is known of an argument, files are
-/// offered; where nothing is known of an option's value, nothing.
+/// Completes the subcommands, options and values that `app` declares. Files are offered for arguments without known
+/// values, nothing for options without known values.
 std::string bash_completion(const CLI::App& app, const Completions&);
 std::string zsh_completion(const CLI::App& app, const Completions&);
 

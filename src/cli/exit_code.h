@@ -1,4 +1,4 @@
-// How a program of this project ends.
+// Exit codes of the programs.
 #pragma once
 
 namespace trk_bridge::cli {

@@ -10,7 +10,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 
 constexpr nanoseconds for_ever{-1};
-// About three years: what is longer is as good as without end, and within the range of the clock.
+// s, about three years: longer limits count as no limit, so that the clock does not overflow.
 constexpr double longest_limit = 1e8;
 
 }  // namespace

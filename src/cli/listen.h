@@ -11,28 +11,27 @@
 
 namespace trk_bridge::cli {
 
-/// What a program does with what comes.
+/// Handles what a source receives.
 class Listener {
  public:
   virtual ~Listener() = default;
-  /// Whether to go on.
+  /// Returns whether to continue.
   virtual bool on_sample(const transport::Sample&) = 0;
-  /// One record was malformed.
+  /// Called for a malformed record.
   virtual void on_malformed(const transport::Reception&) = 0;
 };
 
 enum class Ending : std::uint8_t {
-  enough,   ///< the listener wants no more, or the time limit has passed
+  enough,   ///< the listener returned false, or the time limit has passed
   stopped,  ///< by Source::stop
-  ended,    ///< the source has no more
-  failed,   ///< the source cannot go on
+  ended,    ///< the source has no more records
+  failed,   ///< the source failed
 };
 
-/// Until the source ends, is stopped or fails, the listener has enough, or `seconds` (wall time) have passed.
+/// Runs until the source ends, is stopped or fails, until the listener returns false, or for `seconds` (wall time).
 Ending listen(transport::Source&, Listener&, std::optional<double> seconds = std::nullopt);
 
-/// The end of a program that has listened: the summary on `err`, and then what the source waited for, or its error
-/// where it failed. With a limit (of records or time), exit_nothing if no record was received.
-ExitCode report_end(const Tally&, const transport::SourceStatistics&, Ending, bool has_limit, std::ostream& err);
+/// Prints the summary on `err`, then what the source was waiting for, or its error if it failed. Returns the exit code.
+ExitCode report_end(const Tally&, const transport::SourceStatistics&, Ending, std::ostream& err);
 
 }  // namespace trk_bridge::cli

@@ -1,4 +1,4 @@
-// Progress of a long run, and how a signal ends it.
+// Shows the progress of a long run, and ends it on a signal.
 #pragma once
 
 #include <chrono>
@@ -14,8 +14,8 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How far a run is: nothing when it is short, then a line that is rewritten on a terminal, a line every few seconds
-/// elsewhere.
+/// Shows progress: nothing for a short run, then one line that is rewritten on a terminal, or a new line every few
+/// seconds elsewhere.
 class LongRun {
  public:
   LongRun(std::ostream& err, bool is_terminal) : err_(err), is_terminal_(is_terminal) {}
@@ -23,11 +23,11 @@ class LongRun {
   LongRun(const LongRun&) = delete;
   LongRun& operator=(const LongRun&) = delete;
 
-  /// What is done now: "reading take.bag". Ends the part before.
+  /// Begins a part of the run, such as "reading take.bag", and ends the part before.
   void begin(std::string what);
-  /// From 0 to 1. Throws Interrupted when a signal came.
+  /// Progress from 0 to 1. Throws Interrupted after a signal.
   void at(double fraction);
-  /// Removes the line from a terminal, so that others can be written.
+  /// Removes the progress line from a terminal.
   void end();
 
  private:

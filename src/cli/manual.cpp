@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t line_width = 100, term_width = 22;
 
-/// Words with line breaks between, each line after the first behind `indent` spaces; the first begins at column `at`.
+/// Breaks text into lines. The first line begins at column `at`, each later line with `indent` spaces.
 std::string wrapped(const std::string& text, std::size_t at, std::size_t indent) {
   std::istringstream words(text);
   std::string lines, word;
@@ -29,7 +29,7 @@ std::string wrapped(const std::string& text, std::size_t at, std::size_t indent)
   return lines;
 }
 
-/// Text as troff reads it: backslashes and hyphens as they are, no line that begins a request.
+/// Escapes text for troff: backslashes and hyphens stay unchanged, and no line begins a request.
 std::string troff(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

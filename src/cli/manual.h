@@ -1,4 +1,4 @@
-// Help texts beyond those of CLI11, and the manual page.
+// Help texts that CLI11 does not have, and the manual page.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace trk_bridge::cli {
 
-/// A term and what it means.
+/// A term and its meaning.
 struct HelpEntry {
   std::string term;
   std::string meaning;
@@ -21,11 +21,11 @@ struct HelpSection {
   std::vector<HelpEntry> entries;
 };
 
-/// For a terminal, in lines of at most 100 columns where words allow it.
+/// For a terminal, in lines of at most 100 columns unless a word is longer.
 std::string plain_text(const std::vector<HelpSection>&);
 
-/// The manual page of section 1, for man: of the program, its subcommands and all their options, as `app` declares
-/// them, and then of `more`.
+/// The manual page (section 1) of the program, its subcommands and all their options, as `app` declares them, followed
+/// by `more`.
 std::string manual_page(const CLI::App& app, const std::string& version, const std::vector<HelpSection>& more);
 
 }  // namespace trk_bridge::cli

@@ -1,4 +1,4 @@
-// What CLI11 knows of subcommands and options, as manual pages and completions name it.
+// Subcommands and options of CLI11, as manual pages and completions show them.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace trk_bridge::cli {
 
-/// Subcommands and options that help shows, in its order.
+/// Subcommands and options that the help shows, in the same order.
 std::vector<const CLI::App*> visible_commands(const CLI::App&);
 std::vector<const CLI::Option*> visible_options(const CLI::App&);
 
 /// "-h", "--help"
 std::vector<std::string> dashed_names(const CLI::Option&);
-/// Of what follows the option: "N", or the words that it may be, "none|bz2|lz4"; empty for a flag.
+/// The name of the option's value: "N", or its possible words, "none|bz2|lz4"; empty for a flag.
 std::string value_name(const CLI::Option&);
-/// The words that it may be, where it has a list of them.
+/// The possible words of the value, if it has a list of them.
 std::vector<std::string> value_words(const CLI::Option&);
 bool takes_many(const CLI::Option&);
 

@@ -6,13 +6,13 @@ namespace trk_bridge::cli {
 namespace {
 
 std::atomic<transport::Source*> to_stop{nullptr};
-static_assert(std::atomic<transport::Source*>::is_always_lock_free, "a signal handler must not meet a lock");
+static_assert(std::atomic<transport::Source*>::is_always_lock_free, "a signal handler must not take a lock");
 
 void stop() {
   if (transport::Source* source = to_stop.load()) source->stop();
 }
 
-/// Before the first signal can ask for it.
+/// Must be called before the first signal can arrive.
 auto stop_of(transport::Source* source) {
   to_stop.store(source);
   return stop;

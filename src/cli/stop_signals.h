@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM as an orderly end.
+// Ends a program in order on SIGINT and SIGTERM.
 #pragma once
 
 #include <csignal>
@@ -8,8 +8,8 @@
 
 namespace trk_bridge::cli {
 
-/// While it lives, the first SIGINT or SIGTERM stops `source`, where one is given, and is remembered; what more of them
-/// do, base::StopSignals says. SIGPIPE is ignored, so that a closed pipe is an error of writing. One at a time.
+/// While it exists, the first SIGINT or SIGTERM stops `source`, if one is given, and is remembered; for further signals
+/// see base::StopSignals. SIGPIPE is ignored, so that a closed pipe is a write error. Only one object at a time.
 class StopSignals {
  public:
   explicit StopSignals(transport::Source* source = nullptr);

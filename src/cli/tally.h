@@ -14,7 +14,7 @@ namespace trk_bridge::cli {
 /// Not synchronised. Allocates only for a new camera.
 class Tally {
  public:
-  /// The verdict on the counter; none for constants, and for cameras beyond `most_cameras`.
+  /// The order of the counter; none for constants, and for cameras beyond `most_cameras`.
   std::optional<base::Order> add(const transport::Sample&);
 
   /// Parameters and constants.
@@ -29,10 +29,10 @@ class Tally {
   };
   const std::map<Key, base::Sequence, Less>& cameras() const noexcept { return cameras_; }
 
-  /// One line about the source, then one a camera: `trk: id 7 from 192.0.2.7:5000: 100 accepted, 3 lost, …`.
+  /// One line about the source, then one per camera: `trk: id 7 from 192.0.2.7:5000: 100 accepted, 3 lost, …`.
   void summarise(const transport::SourceStatistics&, std::ostream&) const;
 
-  /// Cameras whose counters are judged; of any more, as a port scan could produce, records are only counted.
+  /// Cameras whose counters are judged; records of more cameras, as a port scan could produce, are only counted.
   static constexpr std::size_t most_cameras = 256;
 
  private:

@@ -8,7 +8,7 @@
 namespace trk_bridge::delay {
 namespace {
 
-constexpr double longest_gap = 0.15;  // s between samples that a path is drawn over
+constexpr double longest_gap = 0.15;  // s between samples that are interpolated
 
 }  // namespace
 
@@ -32,7 +32,8 @@ double Path::interval() const {
   return median(intervals);
 }
 
-// By a cubic: with straight lines between samples the best delay would be one at which frames meet samples.
+// Cubic interpolation: with linear interpolation the best delay would be biased to those at which frames coincide with
+// samples.
 Turn Path::at(double time) const {
   const auto found = std::upper_bound(times_.begin() + 2, times_.end() - 2, time);
   const auto next = static_cast<std::size_t>(found - times_.begin());

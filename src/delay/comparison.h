@@ -1,4 +1,4 @@
-// What the picture turned against what tracking turned, as if tracking were delayed.
+// Compares the turns of the picture with those of tracking at different delays of tracking.
 #pragma once
 
 #include <vector>
@@ -7,17 +7,17 @@
 
 namespace trk_bridge::delay {
 
-/// How far tracking has turned since its first sample, over time (s). Any unit of turns, here and below, that is the
+/// How far tracking has turned since its first sample, over time (s). Here and below, turns have any unit that is the
 /// same for picture and tracking.
 class Path {
  public:
-  /// The next sample, later than the last, and how far it turned since that.
+  /// Adds a sample that is later than the last one, and how far it has turned since that.
   void add(double time, const Turn& turn);
-  /// Whether between() can be asked for any times between these: there are samples all the way, and one more to both
+  /// Whether between() can be called for all times in this range: there are samples without gaps, and one more on both
   /// sides.
   bool covers(double from, double to) const;
   Turn between(double from, double to) const { return at(to) - at(from); }
-  /// Of samples, s: the median.
+  /// The median interval of samples, s.
   double interval() const;
 
  private:
@@ -27,21 +27,21 @@ class Path {
   std::vector<Turn> turned_;
 };
 
-/// How far the picture turned from one frame to a later one, stamps in s.
+/// How far the picture turned from one frame to a later one; stamps in s.
 struct Span {
   double from, to;
   Turn turn;
 };
 
-/// Sums over spans, an axis each.
+/// Sums over spans for each axis.
 class Sums {
  public:
   void add(const Turn& picture, const Turn& tracking);
 
-  double scale(int axis) const;        ///< the picture's turn over tracking's
-  double scale_error(int axis) const;  ///< its standard deviation, if all spans were independent
+  double scale(int axis) const;        ///< turn of the picture divided by turn of tracking
+  double scale_error(int axis) const;  ///< its standard deviation for independent spans
   double correlation(int axis) const;  ///< -1 to 1
-  /// The part of the picture's motion that tracking accounts for with a scale for each axis, 0 to 1.
+  /// The share of the picture's motion that tracking explains, with one scale per axis; 0 to 1.
   double explained(bool also_wrong_signs) const;
   const Turn& picture_squares() const { return picture_; }
   const Turn& tracking_squares() const { return tracking_; }
@@ -51,7 +51,7 @@ class Sums {
   double count_ = 0;
 };
 
-/// Spans and a path that covers them for all delays that are asked for. The path must outlive this.
+/// Spans, and a path that covers them for all requested delays. The path must outlive this object.
 class Comparison {
  public:
   Comparison(const Path& path, std::vector<Span> spans) : path_(path), spans_(std::move(spans)) {}
@@ -59,10 +59,11 @@ class Comparison {
   const std::vector<Span>& spans() const { return spans_; }
   Turn tracking(const Span& span, double delay) const { return path_.between(span.from - delay, span.to - delay); }
   Sums sums(double delay) const;
-  /// The delay near `delay` with the highest explained part, by parabolas through it and both at `step` beside it.
+  /// The delay near `delay` with the largest explained share, from parabolas through it and its neighbours at distance
+  /// `step`.
   double refined(double delay, double step, bool also_wrong_signs) const;
-  /// Standard deviation of a delay, s, if all spans were independent: what tracking leaves of the picture's motion
-  /// against how much a delay changes that.
+  /// Standard deviation of a delay for independent spans, s: the unexplained motion of the picture relative to its
+  /// change with the delay.
   double accuracy(double delay, double step) const;
 
  private:

@@ -10,20 +10,21 @@ namespace trk_bridge::delay {
 namespace {
 
 constexpr double least_time = 2;           // s of video
-constexpr double longest_interval = 0.15;  // s from frame to frame of one shot
-// Turns are compared over so long (s), and not from frame to frame: jitter of stamps then has hardly a part in them.
+constexpr double longest_interval = 0.15;  // s between frames of one shot
+// Turns are compared over this time (s), not from frame to frame: then the jitter of stamps hardly matters.
 constexpr double span_time = 0.2;
-constexpr double step = 0.005;        // s between delays that are tried: no camera's motion is finer
-constexpr double least_speed = 0.01;  // of the picture's width a second, RMS: slower is noise
+constexpr double step = 0.005;        // s between searched delays: camera motion has no finer detail
+constexpr double least_speed = 0.01;  // picture widths a second, RMS: slower motion is noise
 constexpr double least_correlation = 0.7;
 constexpr double worst_accuracy = 0.005;  // s
 constexpr double worst_scale_error = 0.1;
-constexpr double worst_focal_length_error = 0.01;  // to be used for anything
+constexpr double worst_focal_length_error = 0.01;  // not used if it is larger
 constexpr double same_shape = 0.01;
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
-/// Radians to what turns are compared in: pixels of the picture's middle, and for roll of a point beside it.
+/// Converts radians to the unit in which turns are compared: pixels in the centre of the picture, for roll of a point
+/// beside it.
 Turn pixels(const camera::Raster& raster, double image_distance) {
   return {raster.mx * image_distance, raster.mx * image_distance, raster.width / 4};
 }
@@ -32,11 +33,11 @@ double speed(const Turn& squares, std::size_t spans) {
   return std::sqrt(squares.sum() / static_cast<double>(std::max<std::size_t>(spans, 1))) / span_time;
 }
 
-/// Whether a turn is far from those of the frames about it: no camera does that, the picture was taken for another part
-/// of what looks alike.
+/// Whether a turn differs much from those of the neighbouring frames. Cameras do not move like that: the picture was
+/// matched to a wrong part of a repetitive pattern.
 bool is_jump(const std::vector<std::optional<Turn>>& turns, std::size_t i, double width) {
   constexpr std::size_t about = 2;            // frames to each side
-  constexpr double far = 0.02, factor = 0.5;  // of the picture's width, and of what the others turned
+  constexpr double far = 0.02, factor = 0.5;  // of the picture's width, and of the turn of the others
   const std::size_t begin = i < about ? 0 : i - about, end = std::min(i + about + 1, turns.size());
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> others;
@@ -49,9 +50,9 @@ bool is_jump(const std::vector<std::optional<Turn>>& turns, std::size_t i, doubl
   return false;
 }
 
-/// Mean of the scales of pan and tilt that turn the right way, by their errors.
+/// Mean of the scales of pan and tilt that have the right sign, weighted by their errors.
 void find_focal_length(Measurement& result) {
-  constexpr double perfect = 1e-4;  // as an error: none is smaller
+  constexpr double perfect = 1e-4;  // lower limit of the errors
   double sum = 0, weights = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const Axis& axis = result.axes[i];
@@ -82,23 +83,23 @@ const char* describe(CannotTell reason) noexcept {
     case CannotTell::no_constants:
       return "there are no constants";
     case CannotTell::other_shape:
-      return "the pictures have another ratio of width and height than the constants";
+      return "the aspect ratio of the pictures differs from that of the constants";
     case CannotTell::too_little:
-      return "there are not two seconds of video with tracking before and after";
+      return "there are less than two seconds of video with tracking before and after";
     case CannotTell::other_time:
       return "video and tracking have stamps of different times: their clocks differ";
     case CannotTell::hardly_moved:
       return "the camera hardly moved";
     case CannotTell::picture_stood:
-      return "tracking moved, and the picture stood or had too little in it to be followed";
+      return "tracking moved, but the picture did not, or it had too little detail to be followed";
     case CannotTell::tracking_stood:
-      return "the picture moved, and tracking stood";
+      return "the picture moved, but tracking did not";
     case CannotTell::disagree:
-      return "the picture and tracking do not move alike at any delay";
+      return "the motions of picture and tracking do not match at any delay";
     case CannotTell::too_even:
-      return "the camera moved too evenly: let it pan quickly and stop";
+      return "the camera moved too evenly: pan quickly and stop";
     case CannotTell::out_of_range:
-      return "the delay is larger than those that were tried";
+      return "the delay is outside the searched range";
   }
   return "";
 }
@@ -148,7 +149,7 @@ std::vector<Span> Meter::spans_of(const std::vector<const Frame*>& frames, const
                                   std::size_t length, double focal_length_scale) const {
   const std::int64_t zero = samples_.front().stamp;
   std::vector<Span> spans;
-  std::deque<Span> run;  // frames that follow upon each other, `length` at most
+  std::deque<Span> run;  // consecutive frames, `length` at most
   Turn turned = Turn::Zero();
   std::vector<std::optional<Turn>> turns;
   for (const Frame* frame : frames) turns.push_back(turn_in(*frame, raster, focal_length_scale));
@@ -201,7 +202,7 @@ Measurement Meter::measure() const {
   const Path path = tracked_path(raster);
   result.tracking_interval = path.interval();
 
-  // A few steps more than delays that are tried, for slopes and parabolas; and the span that ends with a frame.
+  // A few steps more than the searched delays, for slopes and parabolas, and the span that ends with a frame.
   const double margin = most_delay_ + 4 * step;
   std::vector<const Frame*> frames;
   std::vector<double> intervals;
@@ -230,7 +231,7 @@ Measurement Meter::measure() const {
   if (!picture_moved) return cannot(CannotTell::picture_stood);
 
   find_delay(comparison, result);
-  // Spans overlap: one in `length` counts.
+  // Spans overlap: only one of `length` is independent.
   const double overlap = std::sqrt(static_cast<double>(length));
   result.accuracy = comparison.accuracy(result.delay, step) * overlap;
   const auto judge = [&](const Sums& sums) {
@@ -245,7 +246,8 @@ Measurement Meter::measure() const {
     find_focal_length(result);
   };
   judge(comparison.sums(result.delay));
-  // A wrong focal length also bends what is seen beside the middle, which the right one does not.
+  // A wrong focal length also distorts the motion away from the centre; so the scales are computed again with the right
+  // one.
   if (result.focal_length_scale && result.focal_length_error < worst_focal_length_error) {
     judge(Comparison(path, spans_of(frames, raster, length, *result.focal_length_scale)).sums(result.delay));
   }
@@ -269,14 +271,15 @@ void Meter::find_delay(const Comparison& comparison, Measurement& result) const 
   const auto left = [&](double delay, bool also_wrong_signs) {
     return 1 - comparison.sums(delay).explained(also_wrong_signs);
   };
-  // To and fro is the same with the other sign half a period away: wrong signs are believed where they leave less than
-  // half of what right ones do.
+  // A periodic motion looks the same with the opposite sign half a period later: wrong signs are accepted only if they
+  // leave less than half of the error of right ones.
   const double right = best(false), any = best(true);
   const bool wrong_signs = 2 * left(any, true) < left(right, false);
   result.delay = wrong_signs ? any : right;
   result.correlation = std::sqrt(1 - left(result.delay, wrong_signs));
   for (std::size_t i = 0; i < tried.size(); ++i) {
-    result.likeness.push_back({(static_cast<double>(i) - steps) * step, std::sqrt(tried[i].explained(wrong_signs))});
+    result.correlations.push_back(
+        {(static_cast<double>(i) - steps) * step, std::sqrt(tried[i].explained(wrong_signs))});
   }
 }
 

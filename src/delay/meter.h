@@ -1,4 +1,4 @@
-// The delay between a camera's video and its tracking, measured from what both show of its motion.
+// Measures the delay between a camera's video and its tracking by comparing the motion in both.
 #pragma once
 
 #include <array>
@@ -18,85 +18,85 @@
 
 namespace trk_bridge::delay {
 
-/// Why there is no delay.
+/// Why the delay cannot be measured.
 enum class CannotTell : std::uint8_t {
-  no_constants,    ///< without them nobody knows how far a turn moves the picture
-  other_shape,     ///< pictures have another ratio of width and height than the constants
+  no_constants,    ///< without them it is unknown how far a turn moves the picture
+  other_shape,     ///< the aspect ratio of the pictures differs from that of the constants
   too_little,      ///< fewer than two seconds of video with tracking around them
   other_time,      ///< stamps of video and tracking do not overlap
   hardly_moved,    ///< the camera hardly moved
-  picture_stood,   ///< tracking moved and the picture did not, or nothing in it could be followed
-  tracking_stood,  ///< the picture moved and tracking did not
-  disagree,        ///< no delay makes the two alike
-  too_even,        ///< the motion has no beginning and no end that could be compared
-  out_of_range,    ///< the best delay is at the end of those tried
+  picture_stood,   ///< tracking moved, but the picture did not, or nothing in it could be followed
+  tracking_stood,  ///< the picture moved, but tracking did not
+  disagree,        ///< the motions do not match at any delay
+  too_even,        ///< the motion has no start or stop that could be compared
+  out_of_range,    ///< the best delay is at the end of the searched range
 };
 
-/// A line for a person.
+/// One line of text for people.
 const char* describe(CannotTell) noexcept;
 
 inline constexpr std::array axis_names{"pan", "tilt", "roll"};  ///< in the order of Turn
 
-/// What the picture says of one axis of tracking.
+/// One axis of tracking, measured against the picture.
 struct Axis {
-  bool moved = false;      ///< enough to be judged; else the numbers say nothing
-  double scale = 0;        ///< the picture's motion over tracking's: 1 is right, negative turns the wrong way
+  bool moved = false;      ///< it moved enough; otherwise the other values are meaningless
+  double scale = 0;        ///< motion of the picture divided by that of tracking: 1 is right, negative is a wrong sign
   double scale_error = 0;  ///< standard deviation of scale
   double correlation = 0;  ///< -1 to 1, at the delay
 };
 
-/// How fast the picture and tracking turned in the fifth of a second before a frame: pixels a second of the picture's
-/// middle, and for roll of a point a quarter of the picture's width beside it.
+/// How fast the picture and tracking turned in the 0.2 s before a frame: pixels a second in the centre of the picture,
+/// for roll of a point a quarter of the picture's width beside it.
 struct Speeds {
-  double time = 0;  ///< s, of the frame's stamp, from the first one
+  double time = 0;  ///< s, stamp of the frame relative to the first one
   Turn picture;
-  Turn tracking;          ///< as it is stamped
-  Turn tracking_delayed;  ///< by the delay
+  Turn tracking;          ///< with its stamps
+  Turn tracking_delayed;  ///< with its stamps plus the delay
 };
 
-/// How alike video and tracking are when tracking is delayed by `delay` (s): 0 to 1.
-struct Likeness {
+/// The correlation of video and tracking when tracking is delayed by `delay` (s): 0 to 1.
+struct DelayCorrelation {
   double delay = 0, correlation = 0;
 };
 
-/// Delays that may be asked for as the largest one, s.
-inline constexpr double least_most_delay = 0.05, most_most_delay = 5;
+/// Limits of the largest delay that is searched, s.
+inline constexpr double min_search_range = 0.05, max_search_range = 5;
 
 struct Measurement {
-  std::optional<CannotTell> cannot_tell;  ///< if set, the delay and what is said of the axes mean nothing
-  /// s. Positive: the video is later, a frame of stamp t shows the camera as tracking stamps it with t - delay.
+  std::optional<CannotTell> cannot_tell;  ///< if set, delay and axes are meaningless
+  /// s. Positive: the video is later; a frame with stamp t shows the camera that tracking stamps with t - delay.
   double delay = 0;
   double accuracy = 0;           ///< its standard deviation, s
   double correlation = 0;        ///< at the delay, 0 to 1, over all axes
   double frame_interval = 0;     ///< s, median, of video
   double tracking_interval = 0;  ///< s, median
-  double followed = 0;           ///< part of the frames that the picture's motion is known for
+  double followed = 0;           ///< share of the frames whose motion is known
   std::array<Axis, 3> axes;
-  /// The picture's focal length over tracking's, where pan or tilt tell it, and its standard deviation.
+  /// The focal length of the picture divided by that of tracking, if pan or tilt show it, and its standard deviation.
   std::optional<double> focal_length_scale;
   double focal_length_error = 0;
   std::vector<Speeds> speeds;
-  std::vector<Likeness> likeness;  ///< over all delays that were tried
+  std::vector<DelayCorrelation> correlations;  ///< over all searched delays
 };
 
-/// Turns of the picture and of tracking are compared as if tracking were delayed by each of many delays: the best one,
-/// found between samples, is the video's. Every axis has a scale of its own, also a negative one, so that a wrong sign
-/// or a wrong focal length does not spoil the delay. Travel of the camera is not considered: while measuring it should
-/// stand and turn. One camera; not synchronised.
+/// Compares the turns of the picture with those of tracking at many delays of tracking: the best one, interpolated
+/// between samples, is the delay of the video. Every axis has its own scale, which can be negative, so that a wrong
+/// sign or a wrong focal length does not affect the delay. Translation of the camera is ignored: it should only turn
+/// while it is measured. One camera; not synchronised.
 class Meter {
  public:
-  /// Delays from -`most_delay` to `most_delay` (s) are tried.
+  /// Searches delays from -`most_delay` to `most_delay` (s).
   explicit Meter(double most_delay = 0.5) : most_delay_(most_delay) {}
 
-  /// The camera's constants, without which there is no result. Unsound ones are not used.
+  /// The constants of the camera; there is no result without them. Invalid ones are not used.
   camera::ConstantsChange use(const wire::CameraConstants& constants) { return converter_.use(constants); }
-  /// A sample of tracking, in any format. `stamp` is ns since 1970; one that is not later than the last forgets all of
-  /// tracking. The error is why it was left out.
+  /// Adds a sample of tracking, in any format. `stamp` is ns since 1970; if it is not later than the last one, all
+  /// earlier tracking is discarded. The error is the reason why a sample is ignored.
   camera::Result<void> add(std::int64_t stamp, const wire::CameraParams&);
-  /// A frame of video, CV_8UC1, of the whole picture in any resolution. As above, a stamp that is not later than the
-  /// last forgets all of the video.
+  /// Adds a frame of video, CV_8UC1, of the full picture in any resolution. A stamp that is not later than the last one
+  /// discards all earlier video.
   void add(std::int64_t stamp, const cv::Mat& grey);
-  /// Forgets what is older than so many seconds before the newest frame, and the newest sample.
+  /// Discards frames and samples that are more than this time older than the newest frame or sample.
   void keep(double seconds);
 
   Measurement measure() const;
@@ -112,9 +112,9 @@ class Meter {
     cv::Size size;
     std::vector<MovedPoint> points;
   };
-  /// Since the frame before, in the pixels of Speeds, with tracking's focal length times a scale.
+  /// The turn since the frame before, in the pixels of Speeds, with the focal length of tracking times a scale.
   std::optional<Turn> turn_in(const Frame&, const camera::Raster&, double focal_length_scale) const;
-  /// Of `length` frames each.
+  /// Spans of `length` frames each.
   std::vector<Span> spans_of(const std::vector<const Frame*>&, const camera::Raster&, std::size_t length,
                              double focal_length_scale) const;
   /// Over seconds from the first sample on, in the pixels of Speeds.

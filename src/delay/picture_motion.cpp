@@ -14,9 +14,9 @@ namespace {
 constexpr int width_for_points = 640, width_for_whole = 320;  // at most
 constexpr int most_points = 200;
 constexpr double weakest_corner = 0.01;  // of the strongest
-constexpr int points_across = 24;        // no more than so many in a row
+constexpr int points_across = 24;        // largest number of points in a row
 constexpr float same_motion = 2;
-constexpr int halvings = 2;  // of the picture, for points that move otherwise than the whole
+constexpr int halvings = 2;  // of the picture, for points that move differently from it
 
 cv::Mat reduced(const cv::Mat& picture, int most_width) {
   cv::Mat result;
@@ -33,7 +33,7 @@ cv::Mat reduced(const cv::Mat& picture, int most_width) {
 
 cv::Point2f PictureMotion::correlated_motion() {
   if (window_.size() != small_now_.size()) cv::createHanningWindow(window_, small_now_.size(), CV_32F);
-  // Copies: OpenCV 4.6 multiplies what it is given by the window.
+  // Copies, because OpenCV 4.6 multiplies its input by the window.
   small_before_.convertTo(correlated_before_, CV_32F);
   small_now_.convertTo(correlated_now_, CV_32F);
   const cv::Point2d moved = cv::phaseCorrelate(correlated_before_, correlated_now_, window_);
@@ -69,7 +69,7 @@ const std::vector<MovedPoint>& PictureMotion::next(const cv::Mat& grey) {
   cv::goodFeaturesToTrack(before_, points_, most_points, weakest_corner, distance, cv::noArray(), 5);
   if (points_.empty()) return moved_;
   Followed followed = follow(correlated_motion());
-  // Grids look alike where they are not, and noise can hide the peak: then the motion may go on as it was.
+  // Grids match at wrong places, and noise can hide the peak: so the motion of the last frame is tried as well.
   if (cv::norm(followed.whole - whole_) > same_motion) {
     Followed other = follow(whole_);
     if (other.difference < followed.difference) followed = std::move(other);

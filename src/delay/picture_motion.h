@@ -1,4 +1,4 @@
-// How parts of a picture have moved since the one before.
+// Measures how points of a picture have moved since the picture before.
 #pragma once
 
 #include <vector>
@@ -14,23 +14,23 @@ struct MovedPoint {
   Eigen::Vector2d before, now;
 };
 
-/// Follows what is seen from frame to frame. The whole picture's motion comes from phase correlation, however far it
-/// is; from there single points are followed to a small part of a pixel (Lucas and Kanade). Points are spread over the
-/// picture, so that a small object with much detail has few of them. Not synchronised.
+/// Follows points from frame to frame. Phase correlation gives the motion of the whole picture, however large; from
+/// there, single points are followed with subpixel accuracy (Lucas and Kanade). Points are spread over the picture, so
+/// that a small object with much detail has few of them. Not synchronised.
 class PictureMotion {
  public:
-  /// `grey` is CV_8UC1 and is not kept. Points that were found again, in no order: none for the first frame, for one of
-  /// another size than the one before, and where there is nothing to see. They are some that move otherwise than the
-  /// camera, and some that are wrong. The result holds until the next call.
+  /// `grey` is CV_8UC1 and is not kept. Returns the points that were found again, in any order: none for the first
+  /// frame, for a frame with a new size, or if the picture has no detail. Some points may move with objects instead of
+  /// the camera, and some may be wrong. The result is valid until the next call.
   const std::vector<MovedPoint>& next(const cv::Mat& grey);
 
  private:
-  /// Where the points are now, if they are near to where the motion of the whole picture puts them.
+  /// The current positions of points that are near the position expected from the motion of the whole picture.
   struct Followed {
     cv::Point2f whole;
     std::vector<cv::Point2f> points;
     std::vector<unsigned char> is_found;
-    float difference = 0;  // between what is about a point before and now, levels of grey: the median
+    float difference = 0;  // of the surroundings of a point before and now, grey levels; median over the points
   };
 
   cv::Point2f correlated_motion();

@@ -52,14 +52,14 @@ std::string to_svg(const Measurement& measurement, const std::string& title) {
                      std::move(curves)};
 
   constexpr double ms = 1e3;
-  const auto& likeness = measurement.likeness;
+  const auto& correlations = measurement.correlations;
   plot::Curve correlation{{}, "stroke='#222' stroke-width='2'", "correlation"};
-  for (const auto& one : likeness) correlation.points.emplace_back(one.delay * ms, one.correlation);
+  for (const auto& one : correlations) correlation.points.emplace_back(one.delay * ms, one.correlation);
   const double found = measurement.delay * ms;
   plot::Panel delays{
       "delay of tracking, ms",
       "correlation",
-      {likeness.front().delay * ms, likeness.back().delay * ms},
+      {correlations.front().delay * ms, correlations.back().delay * ms},
       {0, 1},
       {correlation, {{{found, 0}, {found, 1}}, "stroke='#1e78d2' stroke-width='1.5'", "the video's delay"}}};
   return plot::to_svg(title, {std::move(speeds), std::move(delays)});

@@ -1,4 +1,4 @@
-// A measurement as a drawing.
+// Draws a measurement.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace trk_bridge::delay {
 
-/// An SVG: how fast the picture and tracking turned about the axis that moved most, as stamped and with tracking
-/// delayed, in the ten seconds about the quickest moment; below, the correlation over all delays. The measurement must
-/// have speeds. `title` is written above.
+/// An SVG. Above: how fast the picture and tracking turned about the axis that moved most, with the original stamps and
+/// with tracking delayed, in the ten seconds around the fastest motion. Below: the correlation over all delays. The
+/// measurement must have speeds. `title` is written at the top.
 std::string to_svg(const Measurement&, const std::string& title);
 
 }  // namespace trk_bridge::delay

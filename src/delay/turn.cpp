@@ -10,15 +10,15 @@ namespace {
 
 constexpr std::size_t fewest_points = 8;
 constexpr int rounds = 10;
-constexpr double finest = 0.05;  // pixels: points are not found better than this
+constexpr double finest = 0.05;  // pixels: points are not found more accurately
 
-/// Where a point is before the lens (x to the right and z up of a point at y = 1, half way), and how it moved.
+/// Position of a point in front of the lens (x right and z up at y = 1, halfway between both frames), and its motion.
 struct Seen {
   Eigen::Vector2d place, moved;
 };
 
-/// Motion of a point for each of pan, tilt and roll in radians, and for a zoom by a factor of e, to first order. At the
-/// middle between both places there is no second order.
+/// Motion of a point per radian of pan, tilt and roll, and for a zoom by a factor of e, to first order. At the midpoint
+/// of both positions the second order is zero.
 Eigen::Matrix<double, 2, 4> motions_at(const Eigen::Vector2d& place) {
   const double u = place.x(), v = place.y();
   Eigen::Matrix<double, 2, 4> motions;
@@ -56,7 +56,7 @@ std::optional<Turn> turn_of(const std::vector<MovedPoint>& points, const camera:
     right.push_back(seen.back().moved.x());
     up.push_back(seen.back().moved.y());
   }
-  // Least squares with Tukey's weights, which leave out what moves otherwise.
+  // Least squares with Tukey's weights, which ignore points that move differently.
   const double pixel = 1 / (raster.mx * lens.image_distance);
   Eigen::Vector4d turn(median(right), -median(up), 0, 0);
   std::vector<double> errors(seen.size());
@@ -64,7 +64,7 @@ std::optional<Turn> turn_of(const std::vector<MovedPoint>& points, const camera:
   for (int round = 0; round < rounds; ++round) {
     std::transform(seen.begin(), seen.end(), errors.begin(),
                    [&](const Seen& one) { return (one.moved - motions_at(one.place) * turn).norm(); });
-    // Of the errors of points that agree four are within this.
+    // 4 standard deviations of the errors of points that agree.
     const double reach = 4.7 * std::max(median(errors) / 1.18, finest * pixel);
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right_side = Eigen::Vector4d::Zero();

@@ -1,4 +1,4 @@
-// How a camera turned between two moments: as its picture shows it, and as its poses say it.
+// The turn of a camera between two times, from its picture and from its poses.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,18 @@
 
 namespace trk_bridge::delay {
 
-/// Rotation about the camera's own axes, radians, in the signs of the protocol: pan to the left, tilt up, roll
-/// clockwise seen from behind. In this order: pan, tilt, roll.
+/// Rotation about the camera axes, radians, with the signs of the protocol: pan to the left, tilt up, roll clockwise
+/// seen from behind. Order: pan, tilt, roll.
 using Turn = Eigen::Vector3d;
 
-/// The value in the middle; 0 for none.
+/// The median; 0 for no values.
 double median(std::vector<double> values);
 
 /// Between two rotations studio_R_camera.
 [[nodiscard]] Turn turn_between(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) noexcept;
 
-/// The turn that makes most of the points move as they do, seen through this lens. A zoom between both frames is taken
-/// out; travel is not. `points` are in pixels of `raster`. None where fewer than half of the points agree, or too few.
+/// The turn that explains the motion of most points, seen through this lens. A zoom between both frames is compensated,
+/// translation is not. `points` are in pixels of `raster`. None if fewer than half of the points agree, or too few.
 [[nodiscard]] std::optional<Turn> turn_of(const std::vector<MovedPoint>& points, const camera::Lens&,
                                           const camera::Raster& raster);
 

@@ -10,11 +10,11 @@ constexpr double radians(double degrees) { return degrees * M_PI / 180; }
 
 // Dimensions of the URDF, in metres.
 const Eigen::Vector3d pivot(-2, -3, 1.5);  // of the arm, in the studio
-constexpr double arm_length = 5;           // from the pivot to the mount, drawn in
+constexpr double arm_length = 5;           // from the pivot to the mount, retracted
 constexpr double head_below_mount = 0.7;   // where the axes of pan, tilt and roll meet
-constexpr double projection_ahead = 0.12;  // of the centre of projection before that, along the optical axis
+constexpr double projection_ahead = 0.12;  // from there to the centre of projection, along the optical axis
 
-/// A mark of the shot: the crane rests there for a moment.
+/// A position of the shot at which the crane rests briefly.
 struct Mark {
   double pan, elevation;  // degrees
   double extension;       // m
@@ -23,7 +23,7 @@ struct Mark {
   double target[3];       // m in the studio
 };
 
-// High and wide over the stage; down and across to the presenter; close and a little aslant; up again with the arm in.
+// High and wide over the stage; down to the presenter; close-up with a little roll; up again with the arm retracted.
 constexpr Mark marks[] = {
     {38, 26, 2.6, 0, 9, {0, 9, 0.8}},
     {6, 6, 3.4, 0, 16, {0.5, 9.5, 1.5}},
@@ -54,7 +54,7 @@ Place place_at(double seconds) {
   place.elevation = radians(between(from.elevation, to.elevation, part));
   place.extension = between(from.extension, to.extension, part);
   place.roll = radians(between(from.roll, to.roll, part));
-  // Even to the eye: it is the logarithm of the image distance that moves.
+  // The logarithm of the image distance is interpolated: this looks even.
   place.image_distance = std::exp(between(std::log(from.zoom), std::log(to.zoom), part));
   place.target = Eigen::Vector3d(from.target) + part * (Eigen::Vector3d(to.target) - Eigen::Vector3d(from.target));
   return place;
@@ -72,8 +72,8 @@ camera::Lens lens_at(double image_distance, double focus_distance) {
   const double wide = widest / image_distance;
   camera::Lens lens;
   lens.image_distance = image_distance;
-  // The optical axis wanders over the chip with the zoom, as it does in every lens; barrel when wide turns into a
-  // little cushion when long.
+  // As in every lens, the optical axis moves on the chip with the zoom, and barrel distortion at the wide end becomes a
+  // little pincushion distortion at the long end.
   lens.center_shift = {0.012 + 0.02 * wide, -0.008 + 0.015 * wide * wide};
   lens.k1 = 1.8e-3 * wide * wide - 1.2e-4;
   lens.k2 = 4e-6 * wide * wide;

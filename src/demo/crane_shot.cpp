@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Parameters {
   double rate = 50;          // Hz
-  bool moves_joints = true;  // else joint states come from elsewhere
+  bool moves_joints = true;  // false: another node publishes joint states
   std::string optical_frame = "camera_optical";
 };
 
@@ -78,7 +78,7 @@ void CraneShot::run() {
     while (!stop_.wait_until(lock, next, [this] { return stopped_; })) {
       const auto now = Clock::now();
       publish(std::chrono::duration<double>(now - begin).count());
-      // What a machine that stood still has missed is not made up for.
+      // Missed cycles are skipped.
       next += period * std::max<Clock::rep>(1, (now - next) / period);
     }
   } catch (const std::exception& error) {

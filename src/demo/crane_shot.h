@@ -1,4 +1,4 @@
-// The example crane in motion: joint states, and its camera's lens.
+// Moves the example crane: joint states, and the lens of its camera.
 #pragma once
 
 #include <condition_variable>
@@ -17,13 +17,13 @@
 
 namespace trk_bridge::demo {
 
-/// Publishes, from a thread of its own and with one stamp for all of a moment, from construction to destruction:
-/// `joint_states`, `camera_info` (frame_id: parameter `optical_frame`) and `lens`, whose pose is the origin since only
-/// joints and tf know it.
+/// Publishes `joint_states`, `camera_info` (frame_id: parameter `optical_frame`) and `lens` from its own thread, with
+/// one stamp for all messages of a cycle. The pose in `lens` is the origin, because the pose is known from joints and
+/// tf only.
 class CraneShot {
  public:
   /// Topics are in the namespace of `node`, parameters in that of `private_node`: `rate` (Hz, 1..1000, default 50),
-  /// `joints` (`shot`, or `external`: joint states come from elsewhere, only the lens is published) and `optical_frame`
+  /// `joints` (`shot`, or `external`: another node publishes joint states, this one only the lens) and `optical_frame`
   /// (default camera_optical). Throws ParameterError.
   CraneShot(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string& name);
   ~CraneShot();

@@ -22,18 +22,18 @@
 namespace trk_bridge::demo {
 namespace {
 
-/// A camera with more pixels than this would fill the memory rather than a screen.
+/// Limits the memory; no screen has more pixels.
 constexpr std::int64_t most_pixels = 64 << 20;
 
-/// The share that the newest picture has in the average cost.
+/// The weight of the newest picture in the average cost.
 constexpr double newest_cost = 0.1;
-/// Of the period: a machine that needs less than this is fast enough again.
+/// Share of the period below which the machine counts as fast enough again.
 constexpr double enough_room = 0.8;
 
-/// CameraInfos kept until an image of their time is to be rectified: as many as come while one is made, and more.
+/// CameraInfos that are kept for rectification: more than arrive while a picture is rendered.
 constexpr std::size_t kept_infos = 100;
 
-/// The memory of a message as OpenCV's picture, made large enough.
+/// The data of a message as a picture of OpenCV, resized.
 cv::Mat picture_of(sensor_msgs::Image& image, int width, int height) {
   image.width = static_cast<std::uint32_t>(width);
   image.height = static_cast<std::uint32_t>(height);
@@ -75,7 +75,7 @@ TestCard::TestCard(::ros::NodeHandle node, const ::ros::NodeHandle& private_node
   constants_subscriber_ = node.subscribe<trk_bridge::CameraConstants>(
       "constants", 1,
       [this](const trk_bridge::CameraConstantsConstPtr& message) { constants_ = ros1::from_msg(*message); });
-  // A queue of one: while a picture is made, newer params take the place of those that wait.
+  // Queue size 1: while a picture is rendered, newer params replace those in the queue.
   params_subscriber_ = node.subscribe<trk_bridge::CameraParams>(
       "params", 1, [this](const trk_bridge::CameraParamsConstPtr& message) { receive(message); });
   info_subscriber_ = node.subscribe<sensor_msgs::CameraInfo>(
@@ -90,8 +90,7 @@ void TestCard::receive(const trk_bridge::CameraParamsConstPtr& message) {
   const auto now = Clock::now();
   if (now < due_) return;
   note_cost();
-  // Counted from when it was due, so that the rate holds on the average whatever the rate of params; what was missed is
-  // not made up for.
+  // Counted from the due time, so that the average rate is right for any rate of params. Missed pictures are skipped.
   due_ = std::max(due_ + period_, now);
   to_be_rectified_ = false;
   if (!render(*message)) return;
@@ -111,20 +110,20 @@ void TestCard::receive(const sensor_msgs::CameraInfoConstPtr& message) {
 
 bool TestCard::render(const trk_bridge::CameraParams& params) {
   if (!constants_) {
-    picture_trouble_.report("no constants yet, no picture without");
+    picture_problem_.report("no picture: no constants yet");
     return false;
   }
   const auto view = View::of(ros1::from_msg(params), *constants_);
   if (!view) {
-    picture_trouble_.report("no picture: " + camera::describe(view.error()));
+    picture_problem_.report("no picture: " + camera::describe(view.error()));
     return false;
   }
   if (std::int64_t{view->width()} * view->height() > most_pixels) {
-    picture_trouble_.report("no picture: " + std::to_string(view->width()) + " x " + std::to_string(view->height()) +
+    picture_problem_.report("no picture: " + std::to_string(view->width()) + " x " + std::to_string(view->height()) +
                             " pixels are more than " + std::to_string(most_pixels));
     return false;
   }
-  picture_trouble_.report("");
+  picture_problem_.report("");
   shown_ = params.header.stamp;
   image_.header.stamp = shown_ + video_delay_;
   cv::Mat picture = picture_of(image_, view->width(), view->height());
@@ -136,14 +135,14 @@ void TestCard::note_cost() {
   cost_ += newest_cost * (std::chrono::duration<double>(spent_).count() - cost_);
   spent_ = {};
   const double period = std::chrono::duration<double>(period_).count();
-  // Once it has been reported, some room is needed to take it back.
-  const bool is_slow = cost_ > (speed_trouble_.reported.empty() ? period : enough_room * period);
-  if (is_slow == !speed_trouble_.reported.empty()) return;
-  speed_trouble_.report(!is_slow
+  // Hysteresis: after the warning, the cost must fall below enough_room before it is cleared.
+  const bool is_slow = cost_ > (speed_problem_.reported.empty() ? period : enough_room * period);
+  if (is_slow == !speed_problem_.reported.empty()) return;
+  speed_problem_.report(!is_slow
                             ? ""
                             : "this machine is too slow: a picture takes " + std::to_string(std::lround(cost_ * 1e3)) +
-                                  " ms, and one is wanted every " + std::to_string(std::lround(period * 1e3)) +
-                                  " ms. Pictures come late, and an overlay is not to be trusted: lower rate");
+                                  " ms, but one is due every " + std::to_string(std::lround(period * 1e3)) +
+                                  " ms. Pictures are late, so an overlay is not reliable: lower the parameter rate");
 }
 
 bool TestCard::rectified_wanted() const {
@@ -160,13 +159,13 @@ void TestCard::rectify_if_possible() {
   try {
     rectify(**found);
   } catch (const std::exception& error) {
-    rectification_trouble_.report(std::string("camera_info does not rectify the picture: ") + error.what());
+    rectification_problem_.report(std::string("the picture cannot be rectified with camera_info: ") + error.what());
   }
 }
 
 void TestCard::rectify(const sensor_msgs::CameraInfo& info) {
   if (info.width != image_.width || info.height != image_.height) {
-    rectification_trouble_.report("camera_info is of " + std::to_string(info.width) + " x " +
+    rectification_problem_.report("camera_info is of " + std::to_string(info.width) + " x " +
                                   std::to_string(info.height) + " pixels, constants of " +
                                   std::to_string(image_.width) + " x " + std::to_string(image_.height));
     return;
@@ -184,10 +183,10 @@ void TestCard::rectify(const sensor_msgs::CameraInfo& info) {
     paired_infos_.publish(straight);
     paired_images_.publish(rectified_);
   }
-  rectification_trouble_.report("");
+  rectification_problem_.report("");
 }
 
-void TestCard::Trouble::report(const std::string& now) {
+void TestCard::Problem::report(const std::string& now) {
   if (now == reported) return;
   reported = now;
   if (!now.empty()) ROS_WARN_STREAM("test card: " << now);

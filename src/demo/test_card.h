@@ -1,4 +1,4 @@
-// The node that makes the pictures of a tracked camera out of what is published about it, to see whether that is right.
+// A node that renders the pictures of a tracked camera from the published data, to check that the data are right.
 #pragma once
 
 #include <chrono>
@@ -20,14 +20,14 @@
 
 namespace trk_bridge::demo {
 
-/// Renders a test card in the studio as the camera of `params` and `constants` sees it, distortion and all, into
-/// `image_raw`, and rectifies that by the `camera_info` of the same stamp into `image_rect`, each only while somebody
-/// subscribes. `rectified/image` is image_rect again, with a `rectified/camera_info` that comes before each image and
-/// has its stamp and no distortion: viewers that take the newest CameraInfo for any image are right then while the lens
-/// zooms. Neither tf nor CameraInfo has a part in image_raw: whether they agree with it can be seen and measured.
-/// Where pictures take longer than the time between them, a warning says that they come too late to be compared.
-/// The card itself is published as markers, latched, on `test_card`, and the delay of the video, that pictures are
-/// stamped later than the params that they show (std_msgs/Float64, s), latched on `video_delay`. All callbacks come
+/// Renders a test card in the studio as the camera of `params` and `constants` sees it, including distortion, to
+/// `image_raw`, and rectifies it with the `camera_info` of the same stamp to `image_rect`, each only while it has
+/// subscribers. `rectified/image` is the same as image_rect; its `rectified/camera_info` is published before each image
+/// and has the same stamp and no distortion: so it is right also for viewers that use the newest CameraInfo for any
+/// image, while the lens zooms. image_raw uses neither tf nor CameraInfo: so they can be compared with it. If rendering
+/// takes longer than the period, a warning says that the pictures are too late for a comparison. The card is published
+/// as markers on `test_card` (latched). The delay of the video, by which the stamps of pictures are later than those of
+/// the params that they show, is published on `video_delay` (std_msgs/Float64, s, latched). All callbacks are called
 /// from one thread.
 class TestCard {
  public:
@@ -46,11 +46,11 @@ class TestCard {
   void rectify(const sensor_msgs::CameraInfo&);
   void rectify_if_possible();
   bool rectified_wanted() const;
-  /// The picture before is done.
+  /// Updates the average cost with the last picture.
   void note_cost();
 
-  /// What is wrong, "" for nothing: logged when it changes.
-  struct Trouble {
+  /// A problem, "" for none; logged when it changes.
+  struct Problem {
     std::string reported;
     void report(const std::string& now);
   };
@@ -61,14 +61,14 @@ class TestCard {
   Clock::time_point due_;
 
   std::optional<wire::CameraConstants> constants_;
-  std::deque<sensor_msgs::CameraInfoConstPtr> infos_;  // the newest ones, the last is the newest
+  std::deque<sensor_msgs::CameraInfoConstPtr> infos_;  // oldest first
   sensor_msgs::Image image_, rectified_;
   ::ros::Time shown_;             // stamp of the params that image_ shows
-  bool to_be_rectified_ = false;  // image_, once its CameraInfo has come
+  bool to_be_rectified_ = false;  // image_, when its CameraInfo has arrived
   image_geometry::PinholeCameraModel model_;
-  Clock::duration spent_{};  // on the picture that was begun last
-  double cost_ = 0;          // s, of a picture, on the average of the last ones
-  Trouble picture_trouble_, rectification_trouble_, speed_trouble_;
+  Clock::duration spent_{};  // for the last picture
+  double cost_ = 0;          // s per picture, average of the last ones
+  Problem picture_problem_, rectification_problem_, speed_problem_;
 
   image_transport::Publisher images_, rectified_images_, paired_images_;
   ::ros::Publisher paired_infos_, markers_, delay_publisher_;

@@ -9,10 +9,10 @@
 namespace trk_bridge::demo {
 namespace {
 
-/// Pixels on both sides of an edge over which it goes from nothing to all.
+/// Half the width of the soft transition at an edge, pixels.
 constexpr float softness = 1.5F;
 
-/// Part of a soft edge that covers a point `inside` pixels within it: the integral of a quadratic B-spline.
+/// Coverage of a point that is `inside` pixels inside an edge: the integral of a quadratic B-spline.
 float covered(float inside) {
   if (inside <= -softness) return 0;
   if (inside >= softness) return 1;
@@ -50,7 +50,7 @@ void Canvas::segment(const Eigen::Vector2d& from, const Eigen::Vector2d& to, dou
   const double length = along.norm();
   if (!(length > 0)) return;
   const Eigen::Vector2d direction = along / length;
-  // Pixel by pixel along the axis that the line is closer to, and across it as far as it is wide.
+  // Pixel by pixel along the axis that is closer to the line, and across it over the width of the line.
   const int major = std::abs(direction.x()) >= std::abs(direction.y()) ? 0 : 1, minor = 1 - major;
   const int sizes[2] = {picture_.cols, picture_.rows};
   const double reach = half_width + softness, slope = along[minor] / along[major];
@@ -61,7 +61,7 @@ void Canvas::segment(const Eigen::Vector2d& from, const Eigen::Vector2d& to, dou
   for (int i = span.from; i <= span.to; ++i) {
     const Span rows(from[minor] + (i - from[major]) * slope, across, sizes[minor]);
     if (rows.from > rows.to) continue;
-    // Of the first of these pixels: how far along the segment and beside it; both are linear from there.
+    // For the first pixel: position along the segment and distance from it; both are linear from there.
     Eigen::Vector2d first;
     first[major] = i - from[major];
     first[minor] = rows.from - from[minor];
@@ -98,7 +98,7 @@ bool Canvas::is_free(const cv::Rect& area) const {
 void Canvas::label(const std::string& text, const Eigen::Vector2d& center, double radius, std::uint8_t level) {
   constexpr int font = cv::FONT_HERSHEY_SIMPLEX, thickness = 1, clearance = 4;
   constexpr double scale = 0.5;
-  // Beyond this nothing is in the picture, and numbers of pixels stay integers.
+  // Positions beyond this are outside the picture and could overflow an integer.
   if (!(center.cwiseAbs().maxCoeff() < std::numeric_limits<std::int16_t>::max())) return;
   int below = 0;
   const cv::Size size = cv::getTextSize(text, font, scale, thickness, &below);

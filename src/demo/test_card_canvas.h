@@ -1,4 +1,4 @@
-// Lines, discs and words on a grey picture, exact to a small part of a pixel.
+// Draws lines, discs and text on a grey picture with subpixel accuracy.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 
 namespace trk_bridge::demo {
 
-/// Draws on a picture of 8 bits a pixel that it does not own. Positions are in pixels, ROS coordinates; what lies
-/// outside is left away. Edges are soft over three pixels, so that the picture keeps the centres of lines and discs
-/// wherever they fall between pixels, also when it is resampled; OpenCV's own drawing does not.
+/// Draws on a picture with 8 bits per pixel that it does not own. Positions are in pixels, ROS coordinates; parts
+/// outside the picture are clipped. Edges are soft over three pixels, so that the centres of lines and discs are kept
+/// with subpixel accuracy, also when the picture is resampled; the drawing functions of OpenCV do not do this.
 class Canvas {
  public:
   Canvas(cv::Mat& picture, std::uint8_t background);
 
   void clear();
-  /// Where lines cross the brighter counts. `half_width` is at least 1.5.
+  /// Where lines cross, the brighter one is visible. `half_width` must be at least 1.5.
   void line(const std::vector<Eigen::Vector2d>& polyline, double half_width, std::uint8_t level);
   void disc(const Eigen::Vector2d& center, double radius, std::uint8_t level);
-  /// Beside a disc of `radius` at `center` where nothing has been drawn yet; nowhere if there is no such place.
+  /// Beside a disc of `radius` at `center`, where nothing has been drawn yet; not drawn if there is no free place.
   void label(const std::string& text, const Eigen::Vector2d& center, double radius, std::uint8_t level);
 
  private:

@@ -6,7 +6,7 @@
 namespace trk_bridge::demo {
 namespace {
 
-/// Every point of every second line bears its coordinates.
+/// Every second point of every second line is labelled with its coordinates.
 constexpr int labelled = 2;
 
 int cells(double length, double spacing) {

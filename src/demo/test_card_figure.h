@@ -1,5 +1,5 @@
-// What is on the test card: grids on the studio's floor and on a wall behind it, and the points where their lines
-// cross.
+// The content of the test card: grids on the floor of the studio and on a wall behind it, and the points where their
+// lines cross.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace trk_bridge::demo {
 
-/// Where the card is in the studio and how large, metres. The wall is parallel to the studio's x axis and faces it.
+/// Position and size of the card in the studio, metres. The wall is parallel to the x axis of the studio and faces it.
 struct Place {
-  double x = 0, y = 12;  ///< the middle of the wall's foot on the floor
+  double x = 0, y = 12;  ///< the middle of the line between wall and floor
   double width = 16;     ///< of wall and floor
   double depth = 12;     ///< of the floor, from the wall towards smaller y
   double height = 5;     ///< of the wall
   double spacing = 1;    ///< of the lines; only whole cells are drawn
 };
 
-/// More lines than this across the floor or the wall are refused by whoever reads a Place.
+/// Limit of cells across the floor or the wall; checked where a Place is read.
 inline constexpr int most_cells = 100;
 
 struct Line {
@@ -32,7 +32,7 @@ struct Point {
 
 /// All in the studio frame, metres.
 struct Figure {
-  std::vector<Line> floor, wall;  ///< their common line is the floor's
+  std::vector<Line> floor, wall;  ///< their common line belongs to the floor
   std::vector<Point> points;
 };
 

@@ -11,7 +11,7 @@ using ros1::make_marker;
 using ros1::MarkerLook;
 using ros1::to_point;
 
-// Not grey, so that they differ from the picture that they are laid over, and which shows through.
+// Coloured and transparent, so that they differ from the grey picture below them, which stays visible.
 constexpr float alpha = 0.6F;
 constexpr MarkerLook floor_look{visualization_msgs::Marker::LINE_LIST, 0.1F, 0.6F, 1.0F, alpha, 0.012};
 constexpr MarkerLook wall_look{visualization_msgs::Marker::LINE_LIST, 0.1F, 0.9F, 0.4F, alpha, 0.012};

@@ -1,4 +1,4 @@
-// The test card in the studio, for rviz.
+// The test card as markers for rviz.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace trk_bridge::demo {
 
-/// Namespaces `floor`, `wall`, `points` and `labels`, valid at any time.
+/// Namespaces `floor`, `wall`, `points` and `labels`; stamp 0, valid at any time.
 visualization_msgs::MarkerArray markers_of(const Figure&, const std::string& studio_frame);
 
 }  // namespace trk_bridge::demo

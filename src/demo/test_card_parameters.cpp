@@ -29,7 +29,7 @@ TestCardParameters read_test_card_parameters(const XmlRpc::XmlRpcValue& tree, co
     reader.fault("optical_frame", ros1::shown(parameters.optical_frame), "must differ from studio_frame");
   }
   if (reader.are_sound({"random_video_delay"}) && parameters.random_video_delay && reader.has("video_delay")) {
-    reader.fault("video_delay", "must not be given with random_video_delay, which picks it");
+    reader.fault("video_delay", "must not be set together with random_video_delay");
   }
   const std::pair<const char*, double> sizes[] = {
       {"width", place.width}, {"depth", place.depth}, {"height", place.height}};

@@ -12,14 +12,15 @@ namespace trk_bridge::demo {
 inline constexpr double most_random_video_delay = 0.08;  // s
 
 struct TestCardParameters {
-  double rate = 25;                 ///< images a second at most, Hz
-  double video_delay = 0;           ///< s that an image's stamp is later than what it shows
-  bool random_video_delay = false;  ///< instead: one that the node picks, up to most_random_video_delay
+  double rate = 25;                 ///< largest rate of images, Hz
+  double video_delay = 0;           ///< s by which the stamp of an image is later than what it shows
+  bool random_video_delay = false;  ///< the node chooses a random delay instead, up to most_random_video_delay
   std::string studio_frame = "studio", optical_frame;
   Place place;
 };
 
-/// From a node's private parameters; `camera` is its camera's name. Throws ros1::ParameterError with every fault.
+/// From the private parameters of a node; `camera` is the name of its camera. Throws ros1::ParameterError with all
+/// faults.
 TestCardParameters read_test_card_parameters(const XmlRpc::XmlRpcValue& tree, const std::string& camera);
 
 }  // namespace trk_bridge::demo

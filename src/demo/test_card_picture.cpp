@@ -22,7 +22,7 @@ void draw(const Figure& figure, const View& view, cv::Mat& picture) {
     const auto pixel = view.see(point.place);
     if (pixel) points.emplace_back(*pixel, &point);
   }
-  // First all that goes, then all that comes: near points must not cut into each other's discs.
+  // All cleared areas first, then all discs: points close together must not cut off each other's discs.
   for (const auto& [pixel, point] : points) canvas.disc(pixel, clear_radius, background);
   for (const auto& [pixel, point] : points) canvas.disc(pixel, point_radius, point_level);
   for (const auto& [pixel, point] : points) {

@@ -6,19 +6,19 @@
 namespace trk_bridge::demo {
 namespace {
 
-/// m before the centre of projection. What is nearer is not drawn.
+/// m in front of the centre of projection; nearer parts are not drawn.
 constexpr double near_plane = 0.02;
 
-/// The slope of the polynomial is 0 where it folds; a picture of that would be arbitrary.
+/// The slope of the polynomial is 0 at the fold; a picture of that region would be arbitrary.
 constexpr double clear_of_the_fold = 0.999;
 
-/// Pixels beyond the image that its reach is widened by: widths of lines and discs.
+/// Pixels beyond the image that are also computed, because lines and discs have a width.
 constexpr double margin = 32;
 
-constexpr double longest_chord = 64;  // pixels: shorter ones cannot hide a bend and its opposite
+constexpr double longest_chord = 64;  // pixels: shorter chords cannot hide a curve and an opposite curve
 constexpr int most_halvings = 12;
 
-/// The part of from..to (0..1) within a circle about the origin; none where it passes by.
+/// The part of from..to (0..1) within a circle around the origin; none if it misses the circle.
 std::optional<std::pair<double, double>> within_circle(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                                                        double radius) {
   const Eigen::Vector2d along = to - from;
@@ -85,7 +85,7 @@ void View::see(const Line& line, Polyline& seen) const {
   if (from.y() < near_plane) from += (near_plane - from.y()) / (to.y() - from.y()) * (to - from);
   const auto begin = camera::project(lens_, from), end = camera::project(lens_, to);
   if (!begin || !end) return;
-  // A straight line stays straight until the lens bends it, and the lens is round.
+  // Before distortion the line is straight, and the limit of the lens is a circle.
   const auto part = within_circle(*begin + lens_.center_shift, *end + lens_.center_shift, undistorted_reach_);
   if (!part) return;
   const Eigen::Vector2d along = *end - *begin;
@@ -101,7 +101,7 @@ void View::bend(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Polyline
   if (!begin || !end) return;
   seen.push_back(*begin);
   Eigen::Vector2d behind = from;
-  // Ends that are still to be reached, the next one last.
+  // Ends of parts that are still to be drawn, the next one last.
   std::vector<End> ahead{{to, *end, 0}};
   while (!ahead.empty()) {
     const End next = ahead.back();

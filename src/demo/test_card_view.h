@@ -1,4 +1,4 @@
-// The camera that looks at the test card: the document's own way from the studio to pixels, lens and all.
+// The camera that sees the test card: the path from the studio to pixels according to the document, including the lens.
 #pragma once
 
 #include <optional>
@@ -12,22 +12,22 @@
 
 namespace trk_bridge::demo {
 
-/// A straight line of a Line as the lens bends it, pixels in ROS coordinates (origin in the centre of the top left one,
-/// y down). Empty where the camera does not see it.
+/// A Line distorted by the lens, pixels in ROS coordinates (origin in the centre of the top left one, y down). Empty if
+/// the camera does not see it.
 using Polyline = std::vector<Eigen::Vector2d>;
 
-/// How far a Polyline may lie beside the curve that it stands for, pixels.
+/// Largest distance of a Polyline from the exact curve, pixels.
 inline constexpr double chord_tolerance = 0.01;
 
-/// Whether and where points and lines of the studio (m) are seen. What is beyond the radius where k1, k2 fold the image
-/// is not seen.
+/// Whether and where points and lines of the studio (m) are seen. Beyond the radius where k1, k2 fold the image nothing
+/// is seen.
 class View {
  public:
   /// Errors are those of camera::decode.
   static camera::Result<View> of(const wire::CameraParams&, const wire::CameraConstants&);
 
   std::optional<Eigen::Vector2d> see(const Eigen::Vector3d& point) const;
-  /// Into `seen`, which is emptied before.
+  /// Writes to `seen`, which is cleared first.
   void see(const Line& line, Polyline& seen) const;
 
   int width() const { return static_cast<int>(raster_.width); }
@@ -42,7 +42,7 @@ class View {
   Eigen::Isometry3d camera_T_studio_;
   camera::Lens lens_;
   camera::Raster raster_;
-  // mm about the optical axis: what is farther is not in the image, or is beyond the fold.
+  // mm around the optical axis: points farther away are outside the image or beyond the fold.
   double undistorted_reach_ = 0;
 };
 

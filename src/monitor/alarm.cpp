@@ -12,7 +12,7 @@
 namespace trk_bridge::monitor {
 namespace {
 
-constexpr double least_window = 1;  // s, of arrivals that a rate or a jitter is judged by
+constexpr double least_window = 1;  // s of arrivals that are needed for rate and jitter
 
 bool has_window(const CameraState& camera) {
   const auto sum = std::accumulate(camera.intervals.begin(), camera.intervals.end(), std::int64_t{0});
@@ -72,7 +72,7 @@ tl::expected<Alarm, std::string> parse_alarm(std::string_view text) {
   alarm.text = std::string(text);
   const std::size_t sign = text.find_first_of("<>");
   if (sign == std::string_view::npos) {
-    return wrong(text, "no > or <; allowed is QUANTITY>NUMBER or QUANTITY<NUMBER, such as loss>1%");
+    return wrong(text, "no > or <; must be QUANTITY>NUMBER or QUANTITY<NUMBER, such as loss>1%");
   }
   const std::string_view name = text.substr(0, sign);
   const auto* const quantity =

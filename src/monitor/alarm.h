@@ -1,4 +1,4 @@
-// What a user wants to be alarmed about: `loss>1%`.
+// Alarms that a user defines: `loss>1%`.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ namespace trk_bridge::monitor {
 
 /// One limit of one quantity.
 struct Alarm {
-  std::string text;  ///< as it was written
+  std::string text;  ///< as given
   std::size_t quantity = 0;
-  bool is_above = true;  ///< it is raised above the limit, else below
+  bool is_above = true;  ///< raised above the limit, else below
   double limit = 0;      ///< in the quantity's unit
 };
 
@@ -25,10 +25,9 @@ tl::expected<Alarm, std::string> parse_alarm(std::string_view);
 /// "loss (%), rate (Hz), …": for help texts.
 std::string alarm_quantities();
 
-/// Those that are raised, for each camera: findings of the level error. Loss, malformed records and drops are those of
-/// the last seconds (Model::looks_back), the rate and the jitter (99th percentile) those of the window of arrivals,
-/// which has to hold a second. A camera that is silent has the rate 0; before there is any camera, the source is
-/// silent.
+/// The raised alarms of all cameras, as findings with level error. Loss, malformed records and drops are those of the
+/// last seconds (Model::looks_back), rate and jitter (99th percentile) those of the window of arrivals, which must
+/// cover at least one second. A silent camera has rate 0; before the first camera, the source counts as silent.
 std::vector<bridge::Finding> raised(const std::vector<Alarm>&, const State&);
 
 }  // namespace trk_bridge::monitor

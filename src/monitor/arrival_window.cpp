@@ -7,15 +7,15 @@
 namespace trk_bridge::monitor {
 namespace {
 
-constexpr std::size_t fewest = 20;              // intervals that show a pattern
-constexpr std::int64_t shortest = 900'000'000;  // ns, likewise
+constexpr std::size_t fewest = 20;              // intervals that are needed
+constexpr std::int64_t shortest = 900'000'000;  // ns that are needed
 // In average intervals.
 constexpr double at_once = 0.25, gap = 1.5, stall = 3;
 constexpr double least_stall = 30e6;     // ns
-constexpr double share_of_bursts = 0.4;  // of intervals that are no intervals, because records came at once
+constexpr double share_of_bursts = 0.4;  // of intervals within bursts
 constexpr std::size_t fewest_bursts = 3;
 
-/// Reorders `values`, of which there is at least one.
+/// Reorders `values`, which must not be empty.
 std::int64_t percentile(std::vector<std::int64_t>& values, double fraction) {
   const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values.size())));
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
@@ -74,7 +74,7 @@ Unevenness ArrivalWindow::unevenness() const {
     if (interval < gap * average) continue;
     ++bursts.count;
     all_gaps += intervals[i];
-    // What the counter passed over was lost, and is no time in which nothing was sent.
+    // Records missing in the counter were lost: their time is not a pause of the sender.
     const double unexplained = interval - static_cast<double>(entries_[i + 1].counts) * average;
     if (unexplained < std::max(stall * average, least_stall)) continue;
     ++stalls.count;

@@ -10,8 +10,8 @@ namespace {
 
 struct Step {
   const char* what;    // "pan left"
-  const char* how;     // more of it
-  std::size_t number;  // of PoseNumbers, which has to grow
+  const char* how;     // explanation
+  std::size_t number;  // index of PoseNumbers that must increase
 };
 constexpr std::array<Step, 6> steps{{{"pan left", "", 3},
                                      {"tilt up", "lens upwards", 4},
@@ -22,7 +22,7 @@ constexpr std::array<Step, 6> steps{{{"pan left", "", 3},
 
 constexpr std::size_t first_angle = 3;
 constexpr PoseNumbers far_enough{0.1, 0.1, 0.1, 5, 5, 5};
-constexpr double also_moved = 0.5;  // of the largest, for its mention
+constexpr double also_moved = 0.5;  // share of the largest, to be mentioned
 
 const char* name_of(std::size_t number) { return text_of(static_cast<Value>(number)).name; }
 
@@ -51,7 +51,7 @@ void AxisCheck::begin(const std::optional<PoseNumbers>& now) {
 
 void AxisCheck::next(const std::optional<PoseNumbers>& now) {
   if (is_over()) return;
-  if (results_.size() == step_) results_.push_back(std::string(steps[step_].what) + ": left out");
+  if (results_.size() == step_) results_.push_back(std::string(steps[step_].what) + ": skipped");
   ++step_;
   from_ = now;
 }
@@ -85,7 +85,7 @@ std::vector<std::string> AxisCheck::lines() const {
     std::string text =
         "AXIS CHECK " + std::to_string(step_ + 1) + "/" + std::to_string(steps.size()) + ": " + step.what + " now";
     if (*step.how != '\0') text += " (" + std::string(step.how) + ")";
-    if (!from_) text += "; no pose comes";
+    if (!from_) text += "; no pose received";
     if (results_.size() > step_) text = "AXIS CHECK: found; space when the camera stands still again";
     lines.push_back(text);
   }

@@ -1,4 +1,4 @@
-// A camera moved step by step, to see which of its numbers follows and with which sign.
+// Guides the user through movements of a camera, and checks axes and signs.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,20 @@
 
 namespace trk_bridge::monitor {
 
-/// Asks for one movement after the other. Each is judged when the first number has moved far enough: that one is the
-/// axis found. Not synchronised.
+/// Asks for one movement after another. The first number that changes by enough is taken as the axis of the movement.
+/// Not synchronised.
 class AxisCheck {
  public:
-  /// Begins with the first step. `now`: where the camera is; none where it is not known.
+  /// Begins with the first step. `now`: the current pose; none if it is not known.
   void begin(const std::optional<PoseNumbers>& now);
   void end() { is_on_ = false; }
   bool is_on() const noexcept { return is_on_; }
 
-  /// Begins the next step; after the last one shows the results.
+  /// Begins the next step; after the last step, lines() shows the results.
   void next(const std::optional<PoseNumbers>& now);
   void look(const std::optional<PoseNumbers>& now);
 
-  /// What the user is to do, and what was found; empty when it is off.
+  /// Instruction for the user, and results; empty if the check is off.
   std::vector<std::string> lines() const;
 
  private:
@@ -32,7 +32,7 @@ class AxisCheck {
   bool is_on_ = false;
   std::size_t step_ = 0;
   std::optional<PoseNumbers> from_;
-  std::vector<std::string> results_;  // of steps, the current one's included as soon as it is known
+  std::vector<std::string> results_;  // of steps, including the current one when it is known
 };
 
 }  // namespace trk_bridge::monitor

@@ -17,7 +17,7 @@ std::string right_aligned(const std::string& text, std::size_t width) {
   return text.size() >= width ? text : std::string(width - text.size(), ' ') + text;
 }
 
-/// At least `least` wide, about the middle.
+/// At least `least` wide, with the same centre.
 Range widened(Range range, double least) {
   const double missing = least - (range.high - range.low);
   if (missing > 0) range = {range.low - missing / 2, range.high + missing / 2};
@@ -56,7 +56,7 @@ std::vector<std::string> curve(const std::vector<Range>& ranges, std::size_t row
 
 std::vector<std::string> histogram(std::vector<std::int64_t> intervals, std::size_t rows, std::size_t width) {
   if (rows == 0 || intervals.empty()) return {};
-  // Odd, so that intervals that are all alike are in the middle of one.
+  // Odd, so that equal intervals are in the centre of a bin.
   const std::size_t bins = std::min(rows, most_bins) - (rows % 2 == 0 && rows < most_bins ? 1 : 0);
   const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
   std::nth_element(intervals.begin(), middle, intervals.end());

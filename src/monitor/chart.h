@@ -1,4 +1,4 @@
-// Curves and bars of characters.
+// Curves and bars drawn with characters.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,14 @@
 
 namespace trk_bridge::monitor {
 
-/// A curve of `rows` lines, a column for each range, with its scale at the left. Every character is two dots high: `'`
-/// the upper one, `.` the lower one, `:` both. `least_range`: of the scale, when the values differ by less.
+/// A curve of `rows` lines with one column per range, and its scale on the left. Every character has two dots: `'` is
+/// the upper one, `.` the lower one, `:` both. `least_range`: smallest range of the scale.
 std::vector<std::string> curve(const std::vector<Range>&, std::size_t rows, int decimals, double least_range);
-/// Characters that the scale takes.
+/// Width of the scale in characters.
 inline constexpr std::size_t scale_width = 11;
 
-/// How many of the intervals (ns) are how long: at most `rows` lines of at most `width` characters, from the shortest
-/// to the longest. Where one is longer than three medians, the last line (`+`) has all that are about as long or
-/// longer.
+/// A histogram of intervals (ns): at most `rows` lines of at most `width` characters, from the shortest to the longest.
+/// If one is longer than three medians, the last line (`+`) contains all from about that length.
 std::vector<std::string> histogram(std::vector<std::int64_t> intervals, std::size_t rows, std::size_t width);
 
 }  // namespace trk_bridge::monitor

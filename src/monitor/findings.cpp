@@ -14,9 +14,9 @@ using bridge::Condition;
 using bridge::Finding;
 using bridge::Level;
 
-constexpr std::uint64_t fewest_missed = 5;  // datagrams; a stray one says nothing
+constexpr std::uint64_t fewest_missed = 5;  // datagrams; fewer can have other reasons
 
-/// The first explains the second where both are found.
+/// If both are found, the first one explains the second one, which is removed.
 using Explanation = std::pair<Condition, Condition>;
 constexpr std::array<Explanation, 5> of_one_camera{{
     {Condition::time_code_counter, Condition::lost},
@@ -30,7 +30,7 @@ constexpr std::array<Explanation, 2> of_all{{
     {Condition::other_interface, Condition::nothing_new},
 }};
 
-/// Of one level, these come first and in this order, those that are in neither list next.
+/// Within a level, these come first in this order, then those in neither list.
 constexpr std::array<Condition, 3> first{Condition::other_interface, Condition::foreign_sender,
                                          Condition::time_code_counter};
 constexpr std::array<Condition, 4> last{Condition::no_constants, Condition::bursts, Condition::stalls, Condition::rate};
@@ -64,28 +64,29 @@ std::string in_the_time_of(const bridge::CameraReport& now, const bridge::Camera
   return " in " + bridge::duration_text(bridge::seconds_between(before.time, now.time));
 }
 
-void add_missed(std::vector<Finding>& found, const SourceLooks& looks) {
-  const auto& now = looks.now.source;
-  const auto& before = looks.before.source;
-  const bool is_udp = looks.now.source_name.rfind("udp ", 0) == 0;
+void add_missed(std::vector<Finding>& found, const SourceReports& reports) {
+  const auto& now = reports.now.source;
+  const auto& before = reports.before.source;
+  const bool is_udp = reports.now.source_name.rfind("udp ", 0) == 0;
   const bool is_quiet =
       now.records == before.records && now.malformed == before.malformed && now.refused == before.refused;
   if (!is_udp || !is_quiet) return;
-  const std::string when = in_the_time_of(looks.now, looks.before);
-  if (looks.missed.reverse_path >= fewest_missed) {
+  const std::string when = in_the_time_of(reports.now, reports.before);
+  if (reports.missed.reverse_path >= fewest_missed) {
     bridge::warn(found, Condition::other_interface,
-                 "nothing comes, but this machine discarded " + std::to_string(looks.missed.reverse_path) + " packets" +
-                     when + " because their sender is reached through another interface (reverse path filter)");
-  } else if (looks.missed.unclaimed >= fewest_missed) {
+                 "nothing is received, but this machine discarded " + std::to_string(reports.missed.reverse_path) +
+                     " packets" + when +
+                     " because their sender is reached through another interface (reverse path filter)");
+  } else if (reports.missed.unclaimed >= fewest_missed) {
     bridge::warn(found, Condition::other_interface,
-                 "nothing comes to " + looks.now.source_name + ", but " + std::to_string(looks.missed.unclaimed) +
-                     " datagrams" + when +
-                     " came to an address or port of this machine where no program listens: the sender uses another "
+                 "nothing is received by " + reports.now.source_name + ", but " +
+                     std::to_string(reports.missed.unclaimed) + " datagrams" + when +
+                     " arrived at an address or port of this machine where no program listens: the sender uses another "
                      "interface, address or port");
   }
 }
 
-/// Rates such as 59.94 Hz are mistaken for the whole number beside them.
+/// Rates such as 59.94 Hz are often mistaken for the nearest whole number.
 void add_rate(std::vector<Finding>& found, const bridge::CounterClockStatistics& rhythm) {
   const auto* standard = rhythm.learned ? bridge::standard_rate(1e9 / rhythm.interval) : nullptr;
   if (standard == nullptr) return;
@@ -98,44 +99,45 @@ void add_rate(std::vector<Finding>& found, const bridge::CounterClockStatistics&
 void add_unevenness(std::vector<Finding>& found, const Unevenness& uneven) {
   if (uneven.kind == Unevenness::Kind::bursts) {
     bridge::warn(found, Condition::bursts,
-                 "records come in bursts: " + std::to_string(uneven.at_once) + " at once every " +
+                 "records arrive in bursts: " + std::to_string(uneven.at_once) + " at once every " +
                      milliseconds(uneven.longest) + ", not one every " + milliseconds(uneven.interval));
   } else if (uneven.kind == Unevenness::Kind::stalls) {
     const bool were_held = uneven.at_once > 1;
     bridge::warn(found, Condition::stalls,
                  "arrivals stall: " + std::to_string(uneven.count) + (uneven.count == 1 ? " time" : " times") +
                      " in the last 10 s, for up to " + milliseconds(uneven.longest) +
-                     (were_held ? "; then " + std::to_string(uneven.at_once) + " records came at once"
+                     (were_held ? "; then " + std::to_string(uneven.at_once) + " records arrived at once"
                                 : "; the sender paused, nothing was lost"));
   }
 }
 
-void add_own(std::vector<Finding>& found, const CameraLooks& looks) {
-  const auto& camera = looks.now.camera;
-  if (!looks.time_code.empty()) {
-    bridge::warn(found, Condition::time_code_counter,
-                 "the counter is a time code (" + looks.time_code + "), not a count: it does not show what is lost");
+void add_own(std::vector<Finding>& found, const CameraReports& reports) {
+  const auto& camera = reports.now.camera;
+  if (!reports.time_code.empty()) {
+    bridge::warn(
+        found, Condition::time_code_counter,
+        "the counter is a time code (" + reports.time_code + "), not a count: lost records are not visible in it");
   }
   if (camera.sequence.accepted == 0) return;
   if (camera.has_lens && camera.constants == bridge::ConstantsOrigin::none) {
     bridge::warn(found, Condition::no_constants,
-                 "no constants have come: without image size and chip size there are no pixels and no angle of view");
+                 "no constants received: without image size and chip size, pixels and the angle of view are unknown");
   }
   add_rate(found, camera.rhythm);
-  add_unevenness(found, looks.unevenness);
+  add_unevenness(found, reports.unevenness);
 }
 
-/// In the words of somebody who watches, and is no receiver.
-void reword(Finding& finding, const CameraLooks& looks) {
-  const auto& camera = looks.now.camera;
+/// Replaces texts of the bridge by texts for a user who only watches.
+void reword(Finding& finding, const CameraReports& reports) {
+  const auto& camera = reports.now.camera;
   if (finding.condition == Condition::foreign_sender) {
     finding.text = "two senders use this id: " + transport::to_string(camera.sender) + " and " +
                    transport::to_string(camera.foreign_sender) +
                    "; a receiver that follows one ignores the other, others mix them";
   } else if (finding.condition == Condition::lost) {
-    const auto lost = camera.sequence.lost - looks.before.camera.sequence.lost;
-    const auto sent = lost + camera.sequence.accepted - looks.before.camera.sequence.accepted;
-    finding.text += " of " + std::to_string(sent) + " records" + in_the_time_of(looks.now, looks.before) + " (" +
+    const auto lost = camera.sequence.lost - reports.before.camera.sequence.lost;
+    const auto sent = lost + camera.sequence.accepted - reports.before.camera.sequence.accepted;
+    finding.text += " of " + std::to_string(sent) + " records" + in_the_time_of(reports.now, reports.before) + " (" +
                     bridge::two_decimals(100.0 * static_cast<double>(lost) / static_cast<double>(sent)) + " %)";
   }
 }
@@ -151,7 +153,7 @@ void remove_explained(std::vector<Finding>& found, const Explanations& explanati
   }
 }
 
-/// That cameras are received is worth a line only where nothing else is.
+/// Keeps `receiving` only if there are no other findings.
 void summarize_good(std::vector<Finding>& found) {
   const auto good = std::stable_partition(
       found.begin(), found.end(), [](const Finding& finding) { return finding.condition != Condition::receiving; });
@@ -164,20 +166,20 @@ void summarize_good(std::vector<Finding>& found) {
   }
 }
 
-std::vector<Finding> of_camera(const CameraLooks& looks) {
-  const auto options = watch_options(looks.id);
+std::vector<Finding> of_camera(const CameraReports& reports) {
+  const auto options = watch_options(reports.id);
   const double rate =
-      looks.now.camera.rhythm.interval > 0 ? 1e9 / looks.now.camera.rhythm.interval : bridge::assumed_field_rate;
-  auto found = bridge::findings(looks.now, looks.before, options, rate);
-  // A monitor makes no stamps.
+      reports.now.camera.rhythm.interval > 0 ? 1e9 / reports.now.camera.rhythm.interval : bridge::assumed_field_rate;
+  auto found = bridge::findings(reports.now, reports.before, options, rate);
+  // A monitor does not make stamps.
   found.erase(std::remove_if(found.begin(), found.end(),
                              [](const Finding& finding) { return finding.condition == Condition::stamps_held; }),
               found.end());
-  for (auto& finding : found) reword(finding, looks);
-  add_own(found, looks);
+  for (auto& finding : found) reword(finding, reports);
+  add_own(found, reports);
   remove_explained(found, of_one_camera);
   for (auto& finding : found) {
-    if (!has(of_the_source, finding.condition)) finding.text = "id " + std::to_string(looks.id) + ": " + finding.text;
+    if (!has(of_the_source, finding.condition)) finding.text = "id " + std::to_string(reports.id) + ": " + finding.text;
   }
   return found;
 }
@@ -192,18 +194,18 @@ bridge::CameraOptions watch_options(std::uint32_t id) {
   return options;
 }
 
-std::vector<Finding> findings_of(const SourceLooks& looks) {
+std::vector<Finding> findings_of(const SourceReports& reports) {
   std::vector<Finding> found;
-  if (looks.cameras.empty()) {
-    found = bridge::findings(looks.now, looks.before, {}, bridge::assumed_field_rate);
+  if (reports.cameras.empty()) {
+    found = bridge::findings(reports.now, reports.before, {}, bridge::assumed_field_rate);
     for (auto& finding : found) {
       if (finding.condition == Condition::waiting) finding.text = "waiting for " + finding.text;
     }
   }
-  add_missed(found, looks);
-  for (const auto& camera : looks.cameras) {
+  add_missed(found, reports);
+  for (const auto& camera : reports.cameras) {
     for (auto& finding : of_camera(camera)) {
-      // What is wrong with the source is reported with each of its cameras.
+      // Findings of the source are reported with each of its cameras.
       const auto is_same = [&finding](const Finding& other) { return other.text == finding.text; };
       if (std::none_of(found.begin(), found.end(), is_same)) found.push_back(std::move(finding));
     }

@@ -1,4 +1,4 @@
-// What is wrong with what comes, in words: those of the bridge's diagnostics, and what only a monitor looks for.
+// Problems of the received data as text: the findings of the bridge's diagnostics, and those that only the monitor has.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,26 @@
 
 namespace trk_bridge::monitor {
 
-/// Two looks at one id, and what is known of it besides.
-struct CameraLooks {
+/// Two reports of one id, and more data about it.
+struct CameraReports {
   std::uint32_t id = 0;
   bridge::CameraReport now, before;
   Unevenness unevenness;
-  std::string time_code;  ///< what of a time code its counter is; empty: none
+  std::string time_code;  ///< how its counter encodes a time code; empty: it does not
 };
 
-/// Two looks at a source.
-struct SourceLooks {
-  bridge::CameraReport now, before;  ///< the camera counts for nothing
+/// Two reports of a source.
+struct SourceReports {
+  bridge::CameraReport now, before;  ///< their `camera` is not used
   KernelCounters missed;             ///< growth between them
-  std::vector<CameraLooks> cameras;
+  std::vector<CameraReports> cameras;
 };
 
-/// As the bridge takes the records of one id when it makes nothing of them but findings.
+/// Options with which the bridge processes the records of one id for findings only.
 bridge::CameraOptions watch_options(std::uint32_t id);
 
-/// What a person should look at, the cause first: the worst level, then what explains others. What another one explains
-/// is left out. Never empty: when nothing is wrong, the only ones are of level ok.
-std::vector<bridge::Finding> findings_of(const SourceLooks&);
+/// The findings, sorted: the worst level first, then causes before others. Findings that another one explains are
+/// removed. Never empty: if nothing is wrong, all have level ok.
+std::vector<bridge::Finding> findings_of(const SourceReports&);
 
 }  // namespace trk_bridge::monitor

@@ -1,4 +1,4 @@
-// What the numbers of a camera were within the last minute, for plots.
+// The values of a camera within the last minute, for plots.
 #pragma once
 
 #include <array>
@@ -10,27 +10,27 @@
 
 namespace trk_bridge::monitor {
 
-/// What can be plotted.
+/// Values that can be plotted.
 enum class Value : std::uint8_t { x, y, z, pan, tilt, roll, lens, focus, iris, interval };
 inline constexpr std::size_t value_count = 10;
-/// One record's, in metres, degrees, mm (lens), ms (interval); NaN: not known.
+/// Of one record, in metres, degrees, mm (lens), ms (interval); NaN: not known.
 using Values = std::array<double, value_count>;
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   bool is_empty() const noexcept { return low > high; }
-  void add(double value) noexcept;  ///< NaN adds nothing
+  void add(double value) noexcept;  ///< NaN is ignored
   void add(const Range&) noexcept;
 };
 
 /// Ranges of every value in steps of 50 ms. Not synchronised.
 class History {
  public:
-  /// `arrival` in nanoseconds; one before the last starts the history again.
+  /// `arrival` in nanoseconds; if it is before the last one, the history is cleared.
   void add(std::int64_t arrival, const Values&);
-  /// Of the last record, ns; 0 before it.
+  /// Arrival of the last record, ns; 0 before the first one.
   std::int64_t newest() const noexcept { return newest_; }
-  /// The `span` ns before `end`, divided into equal columns, oldest first.
+  /// The ranges of the last `span` ns before `end`, in equal columns, oldest first.
   std::vector<Range> columns(Value, std::int64_t end, std::int64_t span, std::size_t columns) const;
 
   static constexpr std::int64_t length = 60'000'000'000, step = 50'000'000;  ///< ns

@@ -7,7 +7,7 @@
 namespace trk_bridge::monitor {
 namespace {
 
-/// Of a file with pairs of lines: `group: name name …`, then `group: number number …`.
+/// A counter in a file with pairs of lines: `group: name name …`, then `group: number number …`.
 std::uint64_t counter_in(const char* path, const std::string& group, const std::string& name) {
   std::ifstream file(path);
   std::string names, numbers;
@@ -22,7 +22,7 @@ std::uint64_t counter_in(const char* path, const std::string& group, const std::
   return 0;
 }
 
-/// Of a file with a `name number` a line.
+/// A counter in a file with lines `name number`.
 std::uint64_t counter_in(const char* path, const std::string& name) {
   std::ifstream file(path);
   std::string head;

@@ -12,9 +12,9 @@
 namespace trk_bridge::monitor {
 namespace {
 
-constexpr double silent_after = 1.0;                 // s
-constexpr double silent_after_intervals = 3.0;       // for what comes more slowly than three times a second
-constexpr std::int64_t between_looks = 500'000'000;  // ns
+constexpr double silent_after = 1.0;                     // s
+constexpr double silent_after_intervals = 3.0;           // for rates below 3 Hz
+constexpr std::int64_t between_snapshots = 500'000'000;  // ns
 
 double seconds_between(Model::Time from, Model::Time to) { return std::chrono::duration<double>(to - from).count(); }
 
@@ -32,7 +32,7 @@ camera::Result<double> horizontal_angle(const camera::Lens& lens, const wire::Ca
   return camera::field_of_view(lens.image_distance, constants->chip_width);
 }
 
-/// What came since `before`.
+/// Counts since `before`.
 transport::SourceStatistics since(transport::SourceStatistics now, const transport::SourceStatistics& before) {
   now.records -= before.records;
   now.malformed -= before.malformed;
@@ -44,10 +44,10 @@ transport::SourceStatistics since(transport::SourceStatistics now, const transpo
   return now;
 }
 
-/// Of `counts` that grew, in percent.
+/// Loss between two counts, in percent.
 std::optional<double> loss_between(const base::SequenceCounts& before, const base::SequenceCounts& now) {
   const auto accepted = now.accepted - before.accepted;
-  // A late record takes a loss back.
+  // A late record reduces the number of lost ones.
   const auto lost = now.lost > before.lost ? now.lost - before.lost : 0;
   if (accepted + lost == 0) return {};
   return 100.0 * static_cast<double>(lost) / static_cast<double>(accepted + lost);
@@ -63,7 +63,7 @@ State frozen(State state) {
 }
 
 Model::Model(Time begin, transport::SourceStatistics before) : begin_(begin), before_(std::move(before)) {
-  looks_.push_back({nanoseconds_of(begin), before_, read_kernel_counters(), {}});
+  snapshots_.push_back({nanoseconds_of(begin), before_, read_kernel_counters(), {}});
 }
 
 const wire::CameraConstants* Model::Track::constants_or_null() const {
@@ -103,7 +103,7 @@ void Model::watch(const transport::Sample& sample, Time now) {
   }
 }
 
-/// A new one is given the constants that have come before.
+/// A new one gets the constants that were received before.
 Model::Watched& Model::watched(std::uint32_t id, Time now) {
   const auto known = watched_.find(id);
   if (known != watched_.end()) return known->second;
@@ -149,7 +149,7 @@ void Model::add_malformed(const transport::Reception& reception, Time now) {
   malformed_ = Malformed{reception.fault, reception.sample.sender, now};
 }
 
-bridge::CameraReport Model::report(const Look& look, std::optional<std::uint32_t> id,
+bridge::CameraReport Model::report(const Snapshot& look, std::optional<std::uint32_t> id,
                                    const std::string& source_name) const {
   bridge::CameraReport report;
   report.source_name = source_name;
@@ -162,49 +162,49 @@ bridge::CameraReport Model::report(const Look& look, std::optional<std::uint32_t
   return report;
 }
 
-SourceLooks Model::look(Time now, const transport::Source& source) {
-  Look latest{nanoseconds_of(now), source.statistics(), read_kernel_counters(), {}};
+SourceReports Model::compare(Time now, const transport::Source& source) {
+  Snapshot latest{nanoseconds_of(now), source.statistics(), read_kernel_counters(), {}};
   for (const auto& [id, camera] : watched_) latest.cameras.emplace(id, camera.pipeline.statistics());
-  while (looks_.size() > 1 && static_cast<double>(latest.time - looks_[1].time) >= looks_back * 1e9) {
-    looks_.pop_front();
+  while (snapshots_.size() > 1 && static_cast<double>(latest.time - snapshots_[1].time) >= looks_back * 1e9) {
+    snapshots_.pop_front();
   }
-  const Look& earlier = looks_.front();
+  const Snapshot& earlier = snapshots_.front();
   const std::string name = source.name();
-  SourceLooks looks{
+  SourceReports reports{
       report(latest, {}, name),
       report(earlier, {}, name),
       {latest.kernel.unclaimed - earlier.kernel.unclaimed, latest.kernel.reverse_path - earlier.kernel.reverse_path},
       {}};
   for (const auto& [id, camera] : watched_) {
-    CameraLooks of_camera;
+    CameraReports of_camera;
     of_camera.id = id;
     of_camera.now = report(latest, id, name);
     of_camera.before = report(earlier, id, name);
     const auto track = tracks_.find({id, camera.pipeline.statistics().sender});
     if (track != tracks_.end()) of_camera.unevenness = track->second.arrivals.unevenness();
     of_camera.time_code = camera.counter.description().value_or("");
-    looks.cameras.push_back(std::move(of_camera));
+    reports.cameras.push_back(std::move(of_camera));
   }
-  if (latest.time - looks_.back().time >= between_looks) looks_.push_back(std::move(latest));
-  return looks;
+  if (latest.time - snapshots_.back().time >= between_snapshots) snapshots_.push_back(std::move(latest));
+  return reports;
 }
 
 State Model::state(Time now, const transport::Source& source) {
-  const SourceLooks looks = look(now, source);
+  const SourceReports reports = compare(now, source);
   State state;
-  state.source_name = looks.now.source_name;
+  state.source_name = reports.now.source_name;
   state.age = seconds_between(begin_, now);
-  state.findings = findings_of(looks);
-  state.source = since(looks.now.source, before_);
+  state.findings = findings_of(reports);
+  state.source = since(reports.now.source, before_);
   state.not_shown = not_shown_;
-  state.recent_malformed = looks.now.source.malformed - looks.before.source.malformed;
-  state.recent_drops = looks.now.source.kernel_drops - looks.before.source.kernel_drops;
+  state.recent_malformed = reports.now.source.malformed - reports.before.source.malformed;
+  state.recent_drops = reports.now.source.kernel_drops - reports.before.source.kernel_drops;
   if (malformed_) {
     state.malformed = MalformedState{malformed_->fault, malformed_->sender, seconds_between(malformed_->came, now)};
   }
   for (const auto& [key, track] : tracks_) {
     state.cameras.push_back(state_of(key, track, now));
-    for (const auto& camera : looks.cameras) {
+    for (const auto& camera : reports.cameras) {
       if (camera.id != key.id) continue;
       state.cameras.back().loss = loss_between(camera.before.camera.sequence, camera.now.camera.sequence);
     }
@@ -225,7 +225,7 @@ CameraState Model::state_of(const cli::Tally::Key& key, const Track& track, Time
   state.jitter = track.arrivals.jitter();
   state.intervals = track.arrivals.intervals();
   state.rest = track.poses.judge();
-  // It does not own what the model has.
+  // Does not own the history of the model.
   state.history = std::shared_ptr<const History>(std::shared_ptr<const History>(), &track.history);
 
   const auto& params = track.latest->params;

@@ -1,4 +1,4 @@
-// What `trk monitor` knows of a source: the statistics of every camera at one moment.
+// The model of `trk monitor`: statistics of a source and of every camera.
 #pragma once
 
 #include <chrono>
@@ -29,15 +29,15 @@ struct MalformedState {
   double age = 0;  ///< s
 };
 
-/// The latest parameters of a camera that were new, and what they mean.
+/// The latest new parameters of a camera, and their meaning.
 struct ParamsState {
   wire::CameraParams params;
   const char* origin = "";                  ///< how it was encoded
   camera::Result<Eigen::Isometry3d> pose;   ///< studio_T_camera, m
   camera::Result<camera::Lens> lens;        ///< mm, m
-  camera::Result<double> horizontal_angle;  ///< degrees, of the whole chip without distortion
-  double age = 0;                           ///< s since they were handed out
-  /// Nothing new for more than a second and more than three intervals.
+  camera::Result<double> horizontal_angle;  ///< degrees, of the full chip without distortion
+  double age = 0;                           ///< s since they were received
+  /// No new parameters for more than one second and more than three intervals.
   bool is_silent = false;
   std::optional<base::CountedTimeCode> time_code;
   transport::LensEncoders encoders = {};
@@ -47,7 +47,7 @@ struct ParamsState {
 /// One id of one sender.
 struct CameraState {
   cli::Tally::Key key;
-  std::optional<ParamsState> latest;  ///< none when only constants have come
+  std::optional<ParamsState> latest;  ///< none if only constants were received
   std::optional<wire::CameraConstants> constants;
   base::SequenceCounts counts;
   std::optional<double> rate;  ///< Hz over the window of arrivals
@@ -55,41 +55,41 @@ struct CameraState {
   Rest rest;
   std::optional<double> loss;           ///< percent of this id's records within the last seconds
   std::vector<std::int64_t> intervals;  ///< ns, over the window of arrivals
-  /// For plots; null where there is none. Of the model, for as long as nothing is added: see frozen().
+  /// For plots; null if there is none. Refers to the model and is valid until records are added: see frozen().
   std::shared_ptr<const History> history;
 };
 
 struct State {
   std::string source_name;
-  double age = 0;  ///< s, since the model knew nothing
-  /// What is wrong, the most important first; never empty.
+  double age = 0;  ///< s since the model was created
+  /// The most important first; never empty.
   std::vector<bridge::Finding> findings;
   transport::SourceStatistics source;
   std::optional<MalformedState> malformed;
-  std::vector<CameraState> cameras;                      ///< by id and sender, those that send before the silent ones
+  std::vector<CameraState> cameras;                      ///< by id and sender, active ones before silent ones
   std::uint64_t not_shown = 0;                           ///< records of more cameras than cli::Tally::most_cameras
-  std::uint64_t recent_malformed = 0, recent_drops = 0;  ///< within the last seconds; drops: of the kernel
+  std::uint64_t recent_malformed = 0, recent_drops = 0;  ///< within the last seconds (looks_back); drops: by the kernel
 };
 /// A copy that does not change with the model.
 State frozen(State);
 
-/// Not synchronised. Reads no clock: `now` is when a record was handed out or the state is asked for, and gives the
-/// ages. Rate, jitter and noise are computed from the arrival of the records, which is the kernel's time stamp for UDP
-/// and the time code for files.
+/// Not synchronised. Reads no clock: `now` is the time at which a record was received or the state is requested, and is
+/// used for ages. Rate, jitter and noise are computed from the arrival of the records: the time stamp of the kernel for
+/// UDP, the time code for files.
 class Model {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// What the source has counted before `begin` is not shown: after a reset.
+  /// `before`: counts of the source before `begin`, which are subtracted (after a reset).
   explicit Model(Time begin, transport::SourceStatistics before = {});
 
   void add(const transport::Sample&, Time now);
   void add_malformed(const transport::Reception&, Time now);
 
-  /// Findings compare it with the states before: it is to be asked for at least every second.
+  /// Findings compare with earlier states: call this at least every second.
   State state(Time now, const transport::Source&);
 
-  /// Findings are of what came within this time, s.
+  /// Findings cover this time, s.
   static constexpr double looks_back = 5;
 
  private:
@@ -113,7 +113,7 @@ class Model {
 
     const wire::CameraConstants* constants_or_null() const;
   };
-  /// One id, whoever sends it: as a receiver takes it.
+  /// One id of any sender, processed as by a receiver.
   struct Watched {
     bridge::CameraPipeline pipeline;
     TimeCodeCounter counter;
@@ -123,7 +123,7 @@ class Model {
     transport::Sender sender;
     Time came;
   };
-  struct Look {
+  struct Snapshot {
     std::int64_t time = 0;  // steady clock, ns
     transport::SourceStatistics source;
     KernelCounters kernel;
@@ -133,15 +133,15 @@ class Model {
   static void add_params(Track&, const transport::Sample&, const wire::CameraParams&, Time now);
   void watch(const transport::Sample&, Time now);
   Watched& watched(std::uint32_t id, Time now);
-  bridge::CameraReport report(const Look&, std::optional<std::uint32_t> id, const std::string& source_name) const;
-  SourceLooks look(Time now, const transport::Source&);
+  bridge::CameraReport report(const Snapshot&, std::optional<std::uint32_t> id, const std::string& source_name) const;
+  SourceReports compare(Time now, const transport::Source&);
   static CameraState state_of(const cli::Tally::Key&, const Track&, Time now);
 
   Time begin_;
   transport::SourceStatistics before_;
   std::map<cli::Tally::Key, Track, cli::Tally::Less> tracks_;
   std::map<std::uint32_t, Watched> watched_;
-  std::deque<Look> looks_;
+  std::deque<Snapshot> snapshots_;
   std::optional<Malformed> malformed_;
   std::uint64_t not_shown_ = 0;
 };

@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double screen_period = 0.1;  // s
 constexpr double lines_period = 1.0;   // s
 
-/// The model, fed from a source for as long as the user wants.
+/// Receives from a source and updates the model.
 class Watch final : public cli::Listener {
  public:
   Watch(transport::Source& source, const Options& options)
@@ -41,12 +41,12 @@ class Watch final : public cli::Listener {
   }
   void on_malformed(const transport::Reception& reception) override { model_.add_malformed(reception, Clock::now()); }
 
-  /// Listens for `period` seconds, less when the time limit is nearer. Whether there is more to come.
+  /// Listens for `period` seconds, or until the time limit. Returns whether there may be more records.
   bool go_on(double period) {
     ending_ = cli::listen(source_, *this, std::min(period, std::max(0.0, left())));
     return ending_ == cli::Ending::enough && left() > 0;
   }
-  /// To the end of the time limit, in seconds.
+  /// Time until the time limit, s.
   double left() const {
     const double passed = std::chrono::duration<double>(Clock::now() - begin_).count();
     return options_.seconds.value_or(passed + 1e9) - passed;
@@ -54,7 +54,7 @@ class Watch final : public cli::Listener {
   bool has_ended() const { return ending_ == cli::Ending::ended; }
   void reset() { model_ = Model(Clock::now(), source_.statistics()); }
 
-  /// With the alarms before all other findings.
+  /// The state, with the alarms as first findings.
   State state() {
     auto state = model_.state(Clock::now(), source_);
     auto alarms = raised(options_.alarms, state);
@@ -65,7 +65,7 @@ class Watch final : public cli::Listener {
                           std::make_move_iterator(alarms.end()));
     return state;
   }
-  /// One was raised in the last state() that was not raised before.
+  /// The last state() raised an alarm that was not raised before.
   bool is_new_alarm() const { return is_new_alarm_; }
 
   cli::ExitCode finish(std::ostream& err) {
@@ -96,12 +96,12 @@ std::optional<PoseNumbers> pose_of(const State& state, const Choice& choice) {
   return PoseNumbers{at.x(), at.y(), at.z(), angles.pan, angles.tilt, angles.roll};
 }
 
-/// The screen, and what the user does with its keys.
+/// The screen and its keys.
 class Session {
  public:
   explicit Session(Watch& watch) : watch_(watch) {}
 
-  /// Until the user wants no more, or there is no more.
+  /// Runs until the user quits or the source ends.
   void run() {
     constexpr std::chrono::milliseconds no_wait{0}, period{static_cast<int>(screen_period * 1000)};
     for (bool has_more = true;;) {
@@ -111,7 +111,7 @@ class Session {
       }
       draw();
       if (has_more) has_more = watch_.go_on(screen_period);
-      // What is shown of a source that has ended stays until the user has seen it, who needs a key to end it.
+      // After the source has ended, the screen stays until the user quits, which needs a keyboard.
       const bool stays = watch_.has_ended() && ::isatty(STDIN_FILENO) != 0;
       if (!has_more && (!stays || cli::StopSignals::stopped() || watch_.left() <= 0)) return;
     }
@@ -172,7 +172,7 @@ class Session {
         axis_check_.next(pose_of(live_, choice_));
         break;
       default:
-        choice_.notice = "no such key; ? shows them all";
+        choice_.notice = "unknown key; ? shows all keys";
     }
   }
   void choose(int by) {
@@ -190,7 +190,7 @@ class Session {
     if (watch_.recording.is_on()) {
       choice_.notice = watch_.recording.end();
     } else if (live_.cameras.empty()) {
-      choice_.notice = "not recorded: no camera has come";
+      choice_.notice = "not recorded: no camera received yet";
     } else {
       choice_.notice = watch_.recording.begin(live_.cameras[chosen(live_, choice_)]);
     }

@@ -1,4 +1,4 @@
-// `trk monitor`: a live picture of what comes.
+// `trk monitor`: shows live what is received.
 #pragma once
 
 #include <iosfwd>
@@ -12,18 +12,18 @@
 namespace trk_bridge::monitor {
 
 struct Options {
-  std::optional<double> seconds;  ///< of wall time, after which it ends
-  /// Those that are raised are the first findings. One that begins rings the terminal's bell; one that ever was raised
-  /// makes the exit code cli::exit_alarm.
+  std::optional<double> seconds;  ///< wall time after which it ends
+  /// Raised alarms are the first findings. A new alarm rings the bell of the terminal; if any alarm was raised, the
+  /// exit code is cli::exit_alarm.
   std::vector<Alarm> alarms;
 };
 
-/// On the whole screen of the terminal, drawn ten times a second, until q is pressed, the time has passed, or the
-/// source is stopped or fails; of a source that has ended the last state stays. Then the summary on `err`. Needs
-/// StopSignals.
+/// Uses the whole screen of the terminal, drawn ten times a second, until q is pressed, the time has passed, or the
+/// source is stopped or fails; after the source has ended, the last state stays visible. Then prints the summary on
+/// `err`. Needs StopSignals.
 cli::ExitCode show_on_screen(transport::Source&, const Options&, std::ostream& err);
 
-/// As lines, once a second, also when the source ends.
+/// Prints lines once a second, and when the source ends.
 cli::ExitCode show_in_lines(transport::Source&, const Options&, std::ostream& out, std::ostream& err);
 
 }  // namespace trk_bridge::monitor

@@ -13,8 +13,8 @@ constexpr const char* url = "file:take-%Y%m%d-%H%M%S.trk";
 
 }  // namespace
 
-/// The first loss. Any thread.
-struct Recording::Trouble {
+/// The cause of the first loss. Any thread.
+struct Recording::FirstLoss {
   void note(const bridge::Loss& loss) {
     const std::lock_guard<std::mutex> lock(mutex);
     if (text.empty()) text = std::visit([](const auto& cause) { return describe(cause); }, loss.cause);
@@ -31,16 +31,16 @@ struct Recording::Trouble {
 
 std::string Recording::begin(const CameraState& camera) {
   const std::string who = "id " + std::to_string(camera.key.id);
-  if (!camera.latest) return "not recorded: no parameters of " + who + " have come";
+  if (!camera.latest) return "not recorded: no parameters of " + who + " received yet";
   if (!camera.latest->lens && camera.latest->lens.error() == camera::CameraReason::no_lens) {
-    return "not recorded: " + who + " has no lens, and a take has one";
+    return "not recorded: " + who + " has no lens, but a take needs one";
   }
-  if (!camera.constants) return "not recorded: no constants of " + who + " have come, and a take begins with them";
+  if (!camera.constants) return "not recorded: no constants of " + who + " received yet, and a take begins with them";
   key_ = camera.key;
-  trouble_ = std::make_shared<Trouble>();
+  first_loss_ = std::make_shared<FirstLoss>();
   bridge::OutletOptions options;
   options.feed = bridge::Feed::one_camera;
-  options.listener = [trouble = trouble_](const bridge::Loss& loss) { trouble->note(loss); };
+  options.listener = [first = first_loss_](const bridge::Loss& loss) { first->note(loss); };
   outlet_ = std::make_unique<bridge::Outlet>(cli::sink_from(url), options);
   auto constants = *camera.constants;
   constants.id = key_.id;
@@ -62,7 +62,7 @@ std::string Recording::status() const {
   const auto state = outlet_->state();
   std::string text = "recording " + state.name + ", " + std::to_string(outlet_->statistics().sent.params) + " records";
   if (!state.cannot_open.empty()) text += ": " + state.cannot_open;
-  if (const auto trouble = trouble_->first(); !trouble.empty()) text += ": " + trouble;
+  if (const auto loss = first_loss_->first(); !loss.empty()) text += ": " + loss;
   return text;
 }
 
@@ -71,10 +71,10 @@ std::string Recording::end() {
   const auto closed = outlet_->close();
   const std::string name = outlet_->state().name;
   const auto params = outlet_->statistics().sent.params;
-  const auto trouble = trouble_->first();
+  const auto loss = first_loss_->first();
   outlet_.reset();
   if (!closed) return "not recorded: " + name + ": " + transport::describe(closed.error());
-  return "recorded " + name + ", " + std::to_string(params) + " records" + (trouble.empty() ? "" : ": " + trouble);
+  return "recorded " + name + ", " + std::to_string(params) + " records" + (loss.empty() ? "" : ": " + loss);
 }
 
 }  // namespace trk_bridge::monitor

@@ -1,4 +1,4 @@
-// A take of one camera, recorded while it is watched.
+// Records a take of one camera in the monitor.
 #pragma once
 
 #include <memory>
@@ -9,28 +9,28 @@
 
 namespace trk_bridge::monitor {
 
-/// Records parameters and constants of one id of one sender into a file in the working directory, named by the time of
-/// its first record: take-20261129-231500.trk. Storage that is slow delays nothing else. One thread.
+/// Records parameters and constants of one id of one sender to a file in the working directory, named by the time of
+/// its first record: take-20261129-231500.trk. Slow storage does not block the caller. One thread at a time.
 class Recording {
  public:
   ~Recording() { end(); }
 
   bool is_on() const noexcept { return outlet_ != nullptr; }
-  /// What to show the user: that it has begun, or why it cannot.
+  /// Returns a text for the user: the recording has begun, or why it cannot begin.
   std::string begin(const CameraState&);
-  /// Of any camera: it takes what is its own.
+  /// Records the sample if it belongs to the recorded camera.
   void add(const transport::Sample&);
   /// "recording take-….trk, 251 records"
   std::string status() const;
-  /// What became of it: the file's name and records, or why there is none. Empty where it was off.
+  /// Returns the result as text: name of the file and number of records, or why there is none. Empty if it was off.
   std::string end();
 
  private:
-  struct Trouble;
+  struct FirstLoss;
 
   cli::Tally::Key key_;
   std::unique_ptr<bridge::Outlet> outlet_;
-  std::shared_ptr<Trouble> trouble_;  // the outlet's thread may outlive it
+  std::shared_ptr<FirstLoss> first_loss_;  // the outlet's thread may outlive it
 };
 
 }  // namespace trk_bridge::monitor

@@ -1,4 +1,4 @@
-// How much a camera that stands still seems to move.
+// Measures the noise of the pose of a camera at rest.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace trk_bridge::monitor {
 using PoseNumbers = std::array<double, 6>;
 
 enum class Motion : std::uint8_t {
-  unknown,  ///< not enough poses within the window
+  unknown,  ///< too few poses within the window
   moving,
   still,
 };
@@ -23,14 +23,13 @@ struct Rest {
 };
 
 /// The poses of one camera within the last three seconds. Not synchronised.
-///
-/// The camera stands still when, of each number, the range is at most `most_range` and the means of the older and the
-/// newer half of the window are at most `most_drift` apart. The range lets the noise of any tracker through; the means
-/// show a slow move, whose halves differ by half its way while those of noise agree. Needs twenty poses that span nine
-/// tenths of the window.
+/// The camera is at rest if, for each number, the range is at most `most_range` and the means of the older and the
+/// newer half of the window differ by at most `most_drift`. The limit of the range is above the noise of any tracker.
+/// The means detect a slow motion: its halves differ by half its distance, while those of noise agree. Needs twenty
+/// poses that cover 90 % of the window.
 class RestWindow {
  public:
-  /// `arrival` in nanoseconds; one before the last starts the window again.
+  /// `arrival` in nanoseconds; if it is before the last one, the window is cleared.
   void add(std::int64_t arrival, const PoseNumbers&);
   Rest judge() const;
 
@@ -44,7 +43,7 @@ class RestWindow {
     std::int64_t arrival;
     PoseNumbers pose;
   };
-  /// Number `i` of entry `n` from the first one's; angles the short way round.
+  /// Difference of number `i` between entry `n` and the first entry; for angles the smallest one.
   double offset(std::size_t n, std::size_t i) const;
   bool is_still(std::size_t i) const;
   double deviation(std::size_t i) const;

@@ -15,7 +15,7 @@ namespace {
 
 extern "C" void trk_bridge_end_in_order(int) { ::raise(SIGTERM); }
 
-/// One signal that is passed on as SIGTERM, unless it is ignored.
+/// Converts one signal to SIGTERM, unless it is ignored.
 class PassedOn {
  public:
   explicit PassedOn(int number) : number_(number) {
@@ -45,13 +45,13 @@ enum Pair : short { warning_pair = 1, error_pair = 2 };
 bool begin_colours() {
   if (!variable("NO_COLOR").empty() || !::has_colors()) return false;
   if (::start_color() == ERR || ::use_default_colors() == ERR) return false;
-  // With a background of their own they can be read whatever the terminal's is.
+  // With their own background colour they are readable on any terminal.
   ::init_pair(warning_pair, COLOR_BLACK, COLOR_YELLOW);
   ::init_pair(error_pair, COLOR_WHITE, COLOR_RED);
   return true;
 }
 
-/// It would end the program on the spot.
+/// The quit key would end the program without cleaning up.
 void switch_quit_key_off() {
   termios mode{};
   if (::tcgetattr(STDOUT_FILENO, &mode) != 0) return;
@@ -79,7 +79,7 @@ struct Screen::Terminal {
   Terminal() : screen(::newterm(nullptr, stdout, stdin)) {
     if (screen == nullptr) {
       throw std::runtime_error("TERM='" + variable("TERM") +
-                               "': no terminal of that type is known; send the output through a pipe for plain lines");
+                               "': unknown type of terminal; pipe the output to get plain lines");
     }
     ::cbreak();
     ::noecho();

@@ -1,4 +1,4 @@
-// The terminal, while a program has all of it.
+// A terminal in full-screen mode.
 #pragma once
 
 #include <chrono>
@@ -10,27 +10,26 @@
 
 namespace trk_bridge::monitor {
 
-/// The whole screen of the terminal that is standard output, and keys from standard input. While it lives, SIGHUP and
-/// SIGQUIT are passed on as SIGTERM, so that a program that ends in order at SIGTERM leaves the terminal as it was at
-/// these, too; the quit key is off. What handles SIGINT and SIGTERM must be in place before. One at a time, one thread.
+/// The full screen of the terminal on standard output, and keys from standard input. While it exists, SIGHUP and
+/// SIGQUIT are converted to SIGTERM, so that a program that handles SIGTERM restores the terminal after these, too; the
+/// quit key is off. Handlers of SIGINT and SIGTERM must be installed before. One object at a time, one thread.
 class Screen {
  public:
-  /// Throws std::runtime_error when the terminal's type (TERM) is not known. Without colour where the terminal has none
-  /// or the environment has NO_COLOR, not empty.
+  /// Throws std::runtime_error if the type of the terminal (TERM) is unknown. No colours if the terminal has none or
+  /// NO_COLOR is set and not empty.
   Screen();
-  /// Leaves the terminal as it was.
+  /// Restores the terminal.
   ~Screen();
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// As it is now: its user may change it at any time.
+  /// The current size, which can change at any time.
   Size size() const;
-  /// Replaces what was shown.
+  /// Replaces the content of the screen.
   void show(const std::vector<Line>&);
-  /// The next key, waiting at most `wait` for it; none when there is none. Keys without a character, and a change of
-  /// size, are 0.
+  /// Waits at most `wait` for a key; none if there is none. Keys without a character, and a change of size, are 0.
   std::optional<char> key(std::chrono::milliseconds wait);
-  /// Rings the terminal's bell.
+  /// Rings the bell of the terminal.
   void ring();
 
  private:

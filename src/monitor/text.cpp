@@ -17,12 +17,12 @@ std::string seconds(double value) { return fixed(value, value < 10 ? 2 : 0); }
 Cell words(std::string text, Style style = Style::plain) { return {std::move(text), "", "", style}; }
 
 /// A count that should be 0.
-Cell trouble(const char* what, std::uint64_t count) {
+Cell error_count(const char* what, std::uint64_t count) {
   return {what, std::to_string(count), "", count == 0 ? Style::plain : Style::warning};
 }
 
 void add_if_any(std::vector<Cell>& cells, const char* what, std::uint64_t count) {
-  if (count != 0) cells.push_back(trouble(what, count));
+  if (count != 0) cells.push_back(error_count(what, count));
 }
 
 Group head(const CameraState& camera) {
@@ -94,7 +94,7 @@ Group lens(const CameraState& camera) {
 }
 
 Group order(const base::SequenceCounts& counts) {
-  Group group{"losses", {trouble("lost", counts.lost), trouble("out of order", counts.late)}};
+  Group group{"losses", {error_count("lost", counts.lost), error_count("out of order", counts.late)}};
   add_if_any(group.cells, "duplicate", counts.duplicates);
   add_if_any(group.cells, "restarts", counts.restarts);
   return group;
@@ -182,13 +182,13 @@ Cell state_of(const transport::SourceStatistics& source) {
 
 std::vector<Cell> counts_of(const State& state) {
   std::vector<Cell> cells{{"records", std::to_string(state.source.records), ""},
-                          trouble("malformed", state.source.malformed)};
+                          error_count("malformed", state.source.malformed)};
   add_if_any(cells, "taken in spite of a fault", state.source.doubtful);
   add_if_any(cells, "refused", state.source.refused);
   add_if_any(cells, "kernel drops", state.source.kernel_drops);
   add_if_any(cells, "overwritten", state.source.overwritten);
   add_if_any(cells, "unknown format bits", state.source.unknown_format_bits);
-  add_if_any(cells, "of more cameras than are shown", state.not_shown);
+  add_if_any(cells, "of cameras beyond the limit", state.not_shown);
   cells.push_back(words(state.source_name));
   return cells;
 }
@@ -219,7 +219,7 @@ std::vector<Cell> summary_of(const CameraState& camera) {
   auto cells = head(camera).cells;
   cells.resize(std::min<std::size_t>(cells.size(), 3));
   if (!camera.latest) return cells;
-  cells.push_back(trouble("lost", camera.counts.lost));
+  cells.push_back(error_count("lost", camera.counts.lost));
   const auto turned = angles(*camera.latest).cells;
   cells.push_back(words(motion_of(camera)));
   cells.insert(cells.end(), turned.begin(), turned.end());

@@ -1,4 +1,4 @@
-// The words and numbers of the monitor, in groups, before they are laid out.
+// The text of the monitor in groups, before layout.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace trk_bridge::monitor {
 
-/// A number with its label and unit, or words in `label` alone. They are never separated by the end of a line.
+/// A number with its label and unit, or only text in `label`. A cell is never split between lines.
 struct Cell {
   std::string label, value, unit;
   Style style = Style::plain;
@@ -16,29 +16,29 @@ struct Cell {
 /// "pan 30.000 deg"
 std::string to_string(const Cell&);
 
-/// What belongs together, and its name where it has to be left out.
+/// Cells that belong together; the name is shown if the group does not fit.
 struct Group {
   std::string name;
   std::vector<Cell> cells;
 };
 
-/// "receiving", "waiting for slot 7: no segment"
+/// "receiving", "waiting"
 Cell state_of(const transport::SourceStatistics&);
-/// Counts of the source; its name last.
+/// Counts of the source, then its name.
 std::vector<Cell> counts_of(const State&);
-/// The last malformed record; nothing where there was none.
+/// The last malformed record; empty if there was none.
 std::vector<Cell> malformed_of(const State&);
-/// What matters most first.
+/// The most important group first.
 std::vector<Group> groups_of(const CameraState&);
-/// One line of a camera among others.
+/// A summary of a camera in one line.
 std::vector<Cell> summary_of(const CameraState&);
-/// "at rest", "moving", "noise -" where it is not known.
+/// "at rest", "moving", or "noise -" if unknown.
 std::string motion_of(const CameraState&);
 
-/// With a fixed number of decimals and no -0; in the form 1e+10 when it is large.
+/// With a fixed number of decimals and no -0; large numbers as 1e+10.
 std::string fixed(double value, int decimals);
 
-/// The name and unit of what is plotted, and the smallest range that a plot shows.
+/// Name and unit of a plotted value, and the smallest range of its plot.
 struct ValueText {
   const char* name;
   const char* unit;

@@ -7,7 +7,7 @@ namespace {
 
 using Code = TimeCodeCounter::Code;
 
-// A count passes through 60 to 99 (or, in bytes, to 255), which no frame does.
+// A plain count reaches 60 to 99 (or, in bytes, 255), a frame number does not.
 constexpr int most_frames = 60, fewest_frames = 23;
 constexpr int enough_seconds = 2;
 constexpr std::int64_t day = 86400;
@@ -42,22 +42,22 @@ std::optional<Code> of_frames(std::uint64_t counter) {
   return Code{0, static_cast<int>(counter)};
 }
 
-struct Writing {
+struct Encoding {
   std::optional<Code> (*code)(std::uint64_t counter);
   const char* name;
 };
 constexpr std::size_t frames_alone = 3;
-constexpr std::array<Writing, 4> writings{{{of_digits, "as decimal digits"},
-                                           {of_coded_decimals, "as binary coded decimals"},
-                                           {of_bytes, "with a byte for each part"},
-                                           {of_frames, "its frame number alone"}}};
+constexpr std::array<Encoding, 4> encodings{{{of_digits, "as decimal digits"},
+                                             {of_coded_decimals, "as binary coded decimals"},
+                                             {of_bytes, "with a byte for each part"},
+                                             {of_frames, "its frame number alone"}}};
 
 }  // namespace
 
 void TimeCodeCounter::add(std::uint64_t counter) noexcept {
-  for (std::size_t i = 0; i < writings.size(); ++i) {
+  for (std::size_t i = 0; i < encodings.size(); ++i) {
     auto& [last, length, seconds] = guesses_[i];
-    const auto code = writings[i].code(counter);
+    const auto code = encodings[i].code(counter);
     const bool goes_on = last && code && code->second == last->second && code->frame >= last->frame;
     bool begins_second = last && code && !goes_on;
     if (begins_second && i == frames_alone) {
@@ -74,14 +74,14 @@ void TimeCodeCounter::add(std::uint64_t counter) noexcept {
 }
 
 std::optional<std::string> TimeCodeCounter::description() const {
-  for (std::size_t i = 0; i < writings.size(); ++i) {
+  for (std::size_t i = 0; i < encodings.size(); ++i) {
     const auto& [last, length, seconds] = guesses_[i];
     if (seconds < enough_seconds || !last) continue;
-    if (i == frames_alone) return std::string(writings[i].name) + ", 0 to " + std::to_string(length - 1);
+    if (i == frames_alone) return std::string(encodings[i].name) + ", 0 to " + std::to_string(length - 1);
     char text[64];
     std::snprintf(text, sizeof text, "%02d:%02d:%02d:%02d %s", static_cast<int>(last->second / 3600),
                   static_cast<int>(last->second / 60 % 60), static_cast<int>(last->second % 60), last->frame,
-                  writings[i].name);
+                  encodings[i].name);
     return text;
   }
   return {};

@@ -1,4 +1,4 @@
-// Whether a counter is a time code in disguise.
+// Detects counters that are time codes.
 #pragma once
 
 #include <array>
@@ -8,27 +8,27 @@
 
 namespace trk_bridge::monitor {
 
-/// Some trackers send a time code in place of a count: as decimal digits HHMMSSFF, as binary coded decimals, with a
-/// byte for each part, or its frame number alone. Such a counter jumps or begins again with every second, which is no
-/// loss. Found after two seconds of the code. Not synchronised, never allocates.
+/// Some trackers send a time code instead of a count: as decimal digits HHMMSSFF, as binary coded decimals, with one
+/// byte per part, or only its frame number. Such a counter jumps or restarts every second, which is not a loss.
+/// Detected after two seconds. Not synchronised, does not allocate.
 class TimeCodeCounter {
  public:
   void add(std::uint64_t counter) noexcept;
 
-  /// "10:20:30:12 as decimal digits"; none where it is not a time code, or not known yet.
+  /// "10:20:30:12 as decimal digits"; none if it is not a time code, or not detected yet.
   std::optional<std::string> description() const;
 
-  /// What one way of writing a time code makes of a counter.
+  /// A counter decoded as time code.
   struct Code {
-    std::int64_t second = 0;  ///< of the day; always 0 where only the frame is written
+    std::int64_t second = 0;  ///< of the day; always 0 if only the frame is sent
     int frame = 0;
   };
 
  private:
   struct Guess {
     std::optional<Code> last;
-    int length = 0;   // frames of a second, where only the frame is written
-    int seconds = 0;  // that have begun as they should, in a row
+    int length = 0;   // frames per second, if only the frame is sent
+    int seconds = 0;  // consecutive seconds that began as expected
   };
 
   std::array<Guess, 4> guesses_;

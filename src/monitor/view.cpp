@@ -11,9 +11,9 @@ namespace trk_bridge::monitor {
 namespace {
 
 constexpr std::size_t indent = 2;
-// A cell has its label at the left, the value ends in one column, the unit is behind it.
+// A cell has its label on the left, the value ends at a fixed column, and the unit follows.
 constexpr std::size_t cell_width = 19, value_end = 14;
-constexpr std::size_t columns_for_rows = 4;  // with fewer, groups do not begin lines of their own
+constexpr std::size_t columns_for_rows = 4;  // with fewer columns, groups do not begin new lines
 constexpr std::size_t most_columns = 6;
 constexpr std::size_t gap = 2;
 constexpr std::size_t fewest_rows_with_keys = 6;
@@ -35,24 +35,24 @@ std::string in_columns(const Cell& cell) {
   return cell.unit.empty() ? text : text + " " + cell.unit;
 }
 
-/// Lines of a width, filled from the left.
+/// Lines with a width, filled from the left.
 class Lines {
  public:
   explicit Lines(std::size_t width) : width_(width) {}
 
-  /// What does not fit in one line goes on in the next with `hanging` spaces.
+  /// Begins a line. Text that does not fit continues in the next line after `hanging` spaces.
   void begin(std::size_t indentation, std::size_t hanging) {
     hanging_ = std::min(hanging, width_ / 2);
     begin_line(std::min(indentation, width_ / 2));
   }
-  /// Behind what is there.
+  /// Appends to the line.
   void flow(const std::string& text, Style style) { add(printable(text), style, is_begun_ ? used_ + gap : used_); }
-  /// In the next column.
+  /// Appends in the next column.
   void cell(const Cell& cell) {
     const std::size_t begun = used_ - begin_ + (is_begun_ ? 1 : 0);
     add(printable(in_columns(cell)), cell.style, begin_ + (begun + cell_width - 1) / cell_width * cell_width);
   }
-  /// Columns that are free in this line, and in a line.
+  /// Free columns in this line, and all columns of a line.
   std::size_t columns_left() const {
     const std::size_t used = (used_ - begin_ + cell_width - 1) / cell_width;
     return used > columns() ? 0 : columns() - used;
@@ -99,12 +99,12 @@ class Lines {
   std::vector<Line> lines_;
 };
 
-/// Lines, and the group that each is of.
+/// Lines, and the group of each.
 struct Block {
   std::vector<Line> lines;
   std::vector<std::string> groups;
 
-  /// Removes all but the first `rows`; the names of the groups of which lines are missing.
+  /// Keeps only the first `rows`. Returns the names of the groups that lost lines.
   std::vector<std::string> cut(std::size_t rows) {
     std::vector<std::string> missing;
     for (std::size_t i = rows; i < lines.size(); ++i) {
@@ -199,7 +199,7 @@ std::string fitted(std::string text, std::size_t width) {
   return text;
 }
 
-/// `rows` lines: plots one above the other, beside them the histogram.
+/// `rows` lines: plots, and beside them the histogram.
 std::vector<Line> charts(const CameraState& camera, const Choice& choice, std::size_t width, std::size_t rows) {
   const bool has_histogram = width >= fewest_columns_with_histogram;
   const std::size_t left = has_histogram ? width - histogram_width - gap : width;
@@ -238,7 +238,7 @@ std::string plural(std::size_t count, const std::string& what) {
   return std::to_string(count) + " more " + what + (count == 1 ? "" : "s");
 }
 
-/// With the number of those that have no room.
+/// A list of names; if it does not fit, ends with the number of the others.
 std::string listed(const std::vector<std::string>& names, std::size_t width) {
   for (std::size_t count = names.size(); count > 0; --count) {
     std::string text;
@@ -259,8 +259,7 @@ void append(std::vector<Line>& to, std::vector<Line> lines) {
   std::move(lines.begin(), lines.end(), std::back_inserter(to));
 }
 
-/// The chosen camera, the others and the charts, below what is on the screen already. A line is left for the names of
-/// what is hidden.
+/// Appends the chosen camera, the others and the charts to the screen. Leaves one line for the names of hidden parts.
 void add_cameras(const State& state, const Choice& choice, Size size, std::vector<Line>& screen,
                  std::vector<std::string>& hidden) {
   const std::size_t at = chosen(state, choice);
@@ -332,7 +331,7 @@ std::vector<Line> screen_of(const State& state, const Choice& choice, Size size)
 }
 
 std::vector<Line> help_screen(Size size) {
-  // Eight lines of 40 characters say what the keys do.
+  // The first eight lines, of at most 40 characters, explain the keys.
   static constexpr const char* texts[] = {
       "?  help           q  quit",
       "p  pause          r  reset",
@@ -344,13 +343,13 @@ std::vector<Line> help_screen(Size size) {
       "Any key goes back.",
       "",
       "Lines with ! need attention; the first one is the most important.",
-      "The line above the keys names what has no room in this terminal.",
-      "Pause: what is shown stays; records are still received, and recorded.",
-      "Reset: counts, findings and plots begin again.",
+      "The line above the keys names what does not fit in this terminal.",
+      "Pause: the screen stays unchanged; records are still received, and recorded.",
+      "Reset: counts, findings and plots start from zero.",
       "Position: x to the right wall, y to the back wall, z up, studio frame.",
       "Angles: pan to the left, tilt upwards, roll clockwise as the operator sees it.",
       "lens: image distance. fov h: horizontal field of view without distortion.",
-      "jitter, p99, worst: how far intervals are from the median one.",
+      "jitter, p99, worst: difference of intervals from the median interval.",
       "noise: standard deviation while the camera is at rest.",
   };
   Lines lines(size.width);

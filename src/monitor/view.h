@@ -1,4 +1,4 @@
-// `trk monitor` as text: the model's state laid out for a width and a height, or a line a camera.
+// `trk monitor` as text: the state of the model laid out for a screen, or as one line per camera.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace trk_bridge::monitor {
 
 enum class Style : std::uint8_t { plain, heading, warning, error };
 
-/// Printable ASCII: whatever else came in a name is shown as a question mark.
+/// Printable ASCII only: other characters in a name are shown as question marks.
 struct Span {
   std::string text;
   Style style = Style::plain;
@@ -25,28 +25,28 @@ struct Size {
   std::size_t width = 0, height = 0;
 };
 
-/// What the user has chosen to see.
+/// What the user has chosen with keys.
 struct Choice {
-  std::optional<cli::Tally::Key> camera;  ///< the one that is shown in full; none, or gone: the first
-  Value plotted = Value::pan;             ///< where there is room for more plots, those after it, too
-  int seconds = 10;                       ///< that plots show
+  std::optional<cli::Tally::Key> camera;  ///< the camera that is shown in full; none or not present: the first
+  Value plotted = Value::pan;             ///< if there is room for more plots, the following ones, too
+  int seconds = 10;                       ///< time span of plots
   bool is_paused = false;
-  std::string notice;              ///< one line about what the last key did
-  std::vector<std::string> guide;  ///< of the axis check, in place of the findings; empty: it is off
+  std::string notice;              ///< one line about the effect of the last key
+  std::vector<std::string> guide;  ///< lines of the axis check, shown instead of the findings; empty: it is off
 };
 
-/// The index of the camera of the choice; 0 where it is none of them.
+/// The index of the chosen camera; 0 if it is not present.
 std::size_t chosen(const State&, const Choice&);
 
-/// At most `height` lines of at most `width` characters: the source; findings; the chosen camera with labels and values
-/// in columns, what matters most first; the other cameras, a line each; where there is room plots and a histogram of
-/// intervals; keys. What has no room is named in the line above the keys.
+/// At most `height` lines of at most `width` characters: the source; findings; the chosen camera in columns, the most
+/// important values first; the other cameras, one line each; if there is room, plots and a histogram of intervals;
+/// keys. The line above the keys names what does not fit.
 std::vector<Line> screen_of(const State&, const Choice&, Size);
-/// What the keys do and what the words mean.
+/// Explains keys and words.
 std::vector<Line> help_screen(Size);
 
-/// A line for each finding that is not ok; one about the source when there is no camera yet or a malformed record came
-/// within the last `period` seconds; then a line for each camera with everything that is known of it.
+/// One line for each finding that is not ok; one about the source if there is no camera yet, or if a malformed record
+/// was received within the last `period` seconds; then one line for each camera with all its data.
 std::vector<std::string> plain_lines_of(const State&, double period);
 
 }  // namespace trk_bridge::monitor

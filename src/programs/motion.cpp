@@ -19,7 +19,7 @@ wire::CameraConstants pal_constants() {
   return k;
 }
 
-/// Where a parameter rests and how far it swings to both sides.
+/// Rest value of a parameter, and its amplitude to both sides.
 struct Swing {
   double rest, amplitude;
 };

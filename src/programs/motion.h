@@ -8,16 +8,16 @@ namespace trk_bridge::programs {
 
 class Motion {
  public:
-  /// `format` must be one that records may be made in.
+  /// `format` must be one that can be written.
   explicit Motion(unsigned format);
 
-  /// Their fake chip agrees with the aspect option of the format.
+  /// With a fake chip that fits the aspect option of the format.
   trkCameraConstants constants() const;
-  /// Set `index` of the motion, below `sets`; its counter is `index` + 1. Throws std::runtime_error where the format
+  /// Set `index` of the motion, below `sets`; its counter is `index` + 1. Throws std::runtime_error if the format
   /// cannot express the camera.
   trkCameraParams params(unsigned index) const;
 
-  /// x, y, z, pan, tilt, roll, field of view, center shift in x and in y, each of which swings once about its rest.
+  /// x, y, z, pan, tilt, roll, field of view, center shift in x and in y. Each makes one period around its rest value.
   static constexpr unsigned moved_parameters = 9;
   static constexpr unsigned sets_per_parameter = 251;
   static constexpr unsigned sets = moved_parameters * sets_per_parameter;

@@ -8,11 +8,11 @@
 namespace trk_bridge::programs {
 namespace {
 
-// The lines below are worded by hand and have to name every field; the camera's id has none.
+// The lines below are written by hand and must print every field except the camera id.
 static_assert(wire::field_count<wire::CameraParams>() == 10 && wire::field_count<wire::Euler>() == 6 &&
               wire::field_count<wire::CameraConstants>() == 11);
 
-// Values stand in one column, which differs between the blocks.
+// Column of the values, which differs between the blocks.
 constexpr int constants_column = 20, params_column = 18;
 
 void print_constant(std::FILE* out, const char* label, int value) {

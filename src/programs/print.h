@@ -1,4 +1,4 @@
-// Records of the document's C interface as the field's programs print them: scripts read this text.
+// Prints records of the document's C interface in the same text as existing programs: scripts parse it.
 #pragma once
 
 #include <cstdio>
@@ -7,7 +7,7 @@
 
 namespace trk_bridge::programs {
 
-/// A block each: a heading, a line a field with a tab before it, an empty line. Numbers have six digits.
+/// One block: a heading, one line per field that begins with a tab, an empty line. Numbers have six digits.
 void print(std::FILE* out, const trkCameraConstants&);
 void print(std::FILE* out, const trkCameraParams&);
 

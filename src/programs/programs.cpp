@@ -1,6 +1,6 @@
-// The document's test programs (section 6.2), which use the C interface: one source, built once for each name in the
-// table below, which is TRK_BRIDGE_PROGRAM. Usage, output and exit codes are those of the field's programs, which
-// scripts rely on: 0 done, 1 not.
+// The test programs of the document (section 6.2), which use the C interface: one source, built once for each name in
+// the table below (TRK_BRIDGE_PROGRAM). Usage, output and exit codes (0 success, 1 failure) are those of existing
+// programs, because scripts rely on them.
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -32,12 +32,12 @@ constexpr const char* time_code = "00:00:00:00:1";
 
 using Arguments = std::vector<std::string>;
 
-/// Throws std::runtime_error "WHAT: error" unless the call went well.
+/// Throws std::runtime_error "WHAT: error" unless the call succeeded.
 void require(trkError error, const std::string& what) {
   if (error != trkOK) throw std::runtime_error(what + ": " + trkErrorMessage(error));
 }
 
-/// A whole number; whether it is a slot or a port, the interface decides.
+/// A whole number; the C interface checks whether it is a valid slot or port.
 int number_from(const std::string& text, const std::string& what) {
   int number = 0;
   const char* const end = text.data() + text.size();
@@ -47,7 +47,7 @@ int number_from(const std::string& text, const std::string& what) {
   return number;
 }
 
-/// The mask of the words from `first` on.
+/// The format mask of the words from index `first`.
 unsigned format_from(const Arguments& arguments, std::size_t first) {
   std::string words;
   for (std::size_t i = first; i < arguments.size(); ++i) words += arguments[i] + ' ';
@@ -57,13 +57,13 @@ unsigned format_from(const Arguments& arguments, std::size_t first) {
   return *format;
 }
 
-/// Steps of equal length that do not drift. A signal that StopSignals has caught ends the waiting early.
+/// Steps of equal length without drift. A signal that StopSignals caught ends the wait.
 class Pace {
  public:
   explicit Pace(std::chrono::nanoseconds step)
       : step_(step), next_(std::chrono::steady_clock::now().time_since_epoch()) {}
 
-  /// Until the next step is due. False when a signal came.
+  /// Waits until the next step is due. False after a signal.
   bool wait() {
     next_ += step_;
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(next_);
@@ -86,12 +86,12 @@ using Read = trkError (*)(trkHandle, Record*);
 template <typename Record>
 using Write = trkError (*)(trkHandle, const Record*);
 
-/// Throws std::runtime_error when what was printed cannot be written.
+/// Throws std::system_error if the output cannot be written.
 void flush() {
   if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "writing");
 }
 
-/// Prints a new record. False when there is none; an invalid one is reported.
+/// Prints a new record. False if there is none; an invalid one is reported.
 template <typename Record>
 bool print_new(trkHandle handle, Read<Record> read) {
   Record record{};
@@ -102,7 +102,7 @@ bool print_new(trkHandle handle, Read<Record> read) {
   return error == trkOK;
 }
 
-/// Looks once a second for thirty seconds, or until a signal, and prints what is new.
+/// Prints new records once a second for thirty seconds, or until a signal.
 void print_for_a_while(trkHandle handle, Read<trkCameraConstants> read_constants, Read<trkCameraParams> read_params) {
   const cli::StopSignals signals;
   Pace pace{std::chrono::seconds(1)};
@@ -166,7 +166,7 @@ void read_file(const Arguments& arguments) {
   trkCameraConstants constants{};
   trkHandle handle = nullptr;
   require(trkFileOpenRead(name.c_str(), code.data(), &constants, &handle), name);
-  // What scripts read begins with the constants.
+  // The output that scripts parse begins with the constants.
   std::fprintf(stderr, "Time code: %s\n", code.data());
   print(stdout, constants);
   trkCameraParams params{};
@@ -213,7 +213,7 @@ constexpr Program programs[] = {
     {"write_net", "HOST PORT [binary] [WORDS]", "Sends moving camera parameters to a host, 50 sets a second.", 2,
      any_number, write_net},
     {"read_file", "FILE", "Prints the camera parameters of a file.", 1, 1, read_file},
-    {"write_file", "FILE [WORDS]", "Writes moving camera parameters to a file, in the place of one of that name.", 1,
+    {"write_file", "FILE [WORDS]", "Writes moving camera parameters to a file; an existing file is replaced.", 1,
      any_number, write_file},
 };
 
@@ -228,7 +228,7 @@ void print_usage(std::FILE* out, const Program& program) {
   std::fprintf(out, "Usage: %s %s\n%s\n", std::string(program.name).c_str(), program.arguments, program.description);
   if (program.most == 1) return;
   std::fputs(
-      "WORDS say how the parameters are written; the first of each group is the default:\n"
+      "WORDS select the format of the parameters; the first of each group is the default:\n"
       "  matrix euler\n"
       "  camera_to_studio studio_to_camera\n"
       "  camera_z_up camera_y_up\n"
@@ -244,7 +244,7 @@ void print_usage(std::FILE* out, const Program& program) {
 }  // namespace
 }  // namespace trk_bridge::programs
 
-// A name that the table does not have is found when this is compiled.
+// A name that is missing in the table is a compile error.
 // NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   using namespace trk_bridge::programs;

@@ -54,7 +54,7 @@ TEST(AxisCheck, SaysWhichAxisMovedAndItsSign) {
   check.next(start);
   EXPECT_THAT(check.lines(), SizeIs(7));
   EXPECT_EQ(check.lines()[0], "AXIS CHECK: all steps done");
-  EXPECT_EQ(check.lines()[1], "move up: left out");
+  EXPECT_EQ(check.lines()[1], "move up: skipped");
   EXPECT_EQ(check.lines()[6], "pan left: pan +6.00 deg: right");
   check.end();
   EXPECT_FALSE(check.is_on());

@@ -187,7 +187,7 @@ TEST(TrkMonitor, ShowsWhatComesWhateverTheSize) {
   EXPECT_TRUE(monitor.shows("! waiting for udp port")) << monitor.screen.text();
   tracker.send("no record");
   tracker();
-  ASSERT_TRUE(monitor.shows("no constants have come")) << monitor.screen.text();
+  ASSERT_TRUE(monitor.shows("no constants received")) << monitor.screen.text();
   tracker.send(test::datagram(test::constants(720, 7)));
   const auto is_complete = [](const std::string& text) {
     return has(text, "image 720 x 576 px") && has(text, "p99 ") && has(text, "pan (deg), last 10 s");
@@ -300,9 +300,9 @@ TEST(TrkMonitor, RecordsTheCameraThatIsShown) {
   MonitorOnATerminal monitor("vt100", nullptr, {}, folder.path());
   Tracker tracker(monitor.port());
   tracker();
-  ASSERT_TRUE(monitor.shows("no constants have come"));
+  ASSERT_TRUE(monitor.shows("no constants received"));
   monitor.type('R');
-  ASSERT_TRUE(monitor.shows("not recorded: no constants of id 7 have come")) << monitor.screen.text();
+  ASSERT_TRUE(monitor.shows("not recorded: no constants of id 7 received")) << monitor.screen.text();
   tracker.send(test::datagram(test::constants(720, 7)));
   ASSERT_TRUE(monitor.shows("image 720 x 576 px"));
   monitor.type('R');
@@ -410,7 +410,7 @@ TEST(TrkMonitor, IntoAPipeItIsALineASecond) {
   while ((line = monitor.out_line().value_or("the end of Z  id 7")).find("Z  id 7") == std::string::npos) {
     findings += line;
   }
-  EXPECT_THAT(findings, HasSubstr("Z  ! id 7: no constants have come"));
+  EXPECT_THAT(findings, HasSubstr("Z  ! id 7: no constants received"));
   EXPECT_THAT(line, AllOf(HasSubstr("counter 1001"), HasSubstr("x 1.5000 m"), Not(HasSubstr("\x1B"))));
   monitor.signal(SIGINT);
   monitor.rest_of_out();

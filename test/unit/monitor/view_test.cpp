@@ -61,7 +61,7 @@ State troubled_state(std::uint32_t cameras) {
   state.cameras.front().constants.reset();
   state.cameras.front().latest->lens = tl::unexpected(camera::CameraReason::constants_needed);
   state.cameras.front().latest->horizontal_angle = tl::unexpected(camera::CameraReason::constants_needed);
-  state.findings = {{bridge::Condition::no_constants, bridge::Level::warn, "id 1: no constants have come"}};
+  state.findings = {{bridge::Condition::no_constants, bridge::Level::warn, "id 1: no constants received"}};
   return state;
 }
 
@@ -176,7 +176,7 @@ TEST(View, ASmallTerminalHasTheImportantAndSaysWhatIsHidden) {
   const auto lines = text_of(state, {40, 10});
   ASSERT_THAT(lines, SizeIs(10));
   const std::string text = joined(lines);
-  EXPECT_THAT(text, AllOf(HasSubstr("! id 1: no constants have come"), HasSubstr("> id 1  50.00 Hz"),
+  EXPECT_THAT(text, AllOf(HasSubstr("! id 1: no constants received"), HasSubstr("> id 1  50.00 Hz"),
                           HasSubstr("  x       1.5000 m   y      -2.0000 m\n")));
   EXPECT_THAT(text, Not(HasSubstr("ASCII")));
   EXPECT_THAT(lines[8], StartsWith("hidden: findings, "));
@@ -272,7 +272,7 @@ TEST(View, TellsTrouble) {
   state.cameras[1].latest->age = 12.3;
   std::string text = joined(text_of(state, {200, 60}));
   EXPECT_THAT(text, HasSubstr("malformed 3  refused 1  kernel drops 2  udp port 7000 on every interface\n"
-                              "! id 1: no constants have come\n"
+                              "! id 1: no constants received\n"
                               "last malformed 3.20 s ago  from 192.0.2.7:50123: field 9 is not a number\n"));
   EXPECT_THAT(text, HasSubstr("no lens: "));
   EXPECT_THAT(text, HasSubstr("lost         4     out of order 0     duplicate    2     restarts     1"));
@@ -301,7 +301,7 @@ TEST(View, TroubleStandsOut) {
       if (span.style == Style::error) errors.push_back(span.text);
     }
   }
-  EXPECT_THAT(warnings, ElementsAre("malformed 3", "refused 1", "kernel drops 2", "! id 1: no constants have come",
+  EXPECT_THAT(warnings, ElementsAre("malformed 3", "refused 1", "kernel drops 2", "! id 1: no constants received",
                                     "last malformed 3.20 s ago", "from 192.0.2.7:50123: field 9 is not a number",
                                     HasSubstr("lost         4")));
   EXPECT_THAT(errors, ElementsAre("! ALARM", HasSubstr("no lens: ")));
@@ -327,10 +327,10 @@ TEST(View, PlainLinesAreOneACamera) {
 
 TEST(View, PlainLinesShowEachNewMalformedRecordOnce) {
   auto state = troubled_state(1);
-  EXPECT_THAT(plain_lines_of(state, 1), ElementsAre("! id 1: no constants have come", StartsWith("id 1  ")));
+  EXPECT_THAT(plain_lines_of(state, 1), ElementsAre("! id 1: no constants received", StartsWith("id 1  ")));
   state.malformed->age = 0.9;
-  EXPECT_THAT(plain_lines_of(state, 1), ElementsAre("! id 1: no constants have come",
-                                                    HasSubstr("field 9 is not a number"), StartsWith("id 1  ")));
+  EXPECT_THAT(plain_lines_of(state, 1),
+              ElementsAre("! id 1: no constants received", HasSubstr("field 9 is not a number"), StartsWith("id 1  ")));
 }
 
 }  // namespace
