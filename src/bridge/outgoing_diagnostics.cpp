@@ -53,10 +53,10 @@ Finding state(const TfReport& now, const TfReport& before, double rate) {
 }
 
 void add_clock_findings(std::vector<Finding>& found, const TfReport& now, const TfReport& before) {
-  if (now.gate.restarts > before.gate.restarts) {
-    warn(found, Condition::tf_restarted, "tf was cleared and continues: " + describe(now.gate.last_restart));
-  } else if (now.gate.refused > before.gate.refused) {
-    warn(found, Condition::tf_refused, "transforms refused: " + describe(now.gate.last_refused));
+  if (now.filter.restarts > before.filter.restarts) {
+    warn(found, Condition::tf_restarted, "tf was cleared and continues: " + describe(now.filter.last_restart));
+  } else if (now.filter.refused > before.filter.refused) {
+    warn(found, Condition::tf_refused, "transforms refused: " + describe(now.filter.last_refused));
   }
   const double ahead = seconds_between(0, now.ahead);
   if (found.front().condition == Condition::sending && std::abs(ahead) > 1) {
@@ -247,9 +247,9 @@ void fill(Status& status, const std::vector<Finding>& found, const TfReport& now
   status.add("stamp of last set", tf.last_stamp > 0 ? base::seconds_text(tf.last_stamp) : std::string("none"));
   status.add("tf", now.pose_fault.empty() ? std::string("ok") : now.pose_fault);
   status.add("tf ahead of ROS time (s)", two_decimals(seconds_between(0, now.ahead)));
-  status.add("transforms refused", now.gate.refused);
-  status.add("tf restarts", now.gate.restarts);
-  status.add("last tf restart", now.gate.restarts > 0 ? describe(now.gate.last_restart) : std::string("none"));
+  status.add("transforms refused", now.filter.refused);
+  status.add("tf restarts", now.filter.restarts);
+  status.add("last tf restart", now.filter.restarts > 0 ? describe(now.filter.last_restart) : std::string("none"));
   status.add("camera_info received", tf.infos);
   status.add("camera_info refused", tf.refused_infos);
   status.add("age of last camera_info (s)", age_text(tf.infos > 0, tf.last_info, now.time));

@@ -11,7 +11,7 @@
 #include "paced_camera.h"
 #include "params_to_trk.h"
 #include "tf_to_trk.h"
-#include "transform_gate.h"
+#include "transform_filter.h"
 
 namespace trk_bridge::bridge {
 
@@ -25,7 +25,7 @@ struct ParamsReport {
 /// The state of the input `tf` at one time.
 struct TfReport {
   TfToTrkStatistics tf;
-  TransformGateStatistics gate;
+  TransformFilterStatistics filter;
   std::string info_topic;      ///< resolved
   std::string pose_fault;      ///< why tf has no pose now, in the words of tf; empty: it has one
   std::int64_t last_pose = 0;  ///< ns since 1970, stamp of the newest pose of tf; 0: none, or a static one

@@ -69,11 +69,11 @@ void CameraOutput::publish_camera_info() {
   is_ready_ = false;
 }
 
-/// Last of all: whoever looks at markers can wait.
+/// Markers are published last, because they are not urgent.
 void CameraOutput::publish_markers() {
   if (!markers_ || marker_topic_.getNumSubscribers() == 0) return;
   if (update_.calibration) {
-    // Without params the focus is not known.
+    // The focus distance is only in params.
     const double focdist = update_.params ? update_.params->focdist : 0;
     marker_topic_.publish(markers_->draw(*messages_.camera_info(), focdist));
     marker_statistics_.store(markers_->statistics());

@@ -1,4 +1,4 @@
-// One camera's topics, fed by its pipeline.
+// Publishes the topics of one camera from its pipeline.
 #pragma once
 
 #include <atomic>
@@ -19,40 +19,40 @@
 
 namespace trk_bridge::nodes {
 
-/// Publishing is apart from processing: the tf of several cameras goes out as one message, before the rest, and a
-/// CameraInfo, whose lens has to be fitted, after all that does not need it. All but set() and describe() belongs to
-/// one reader's thread, these to that of the node's callbacks.
+/// Publishing is separate from processing: the transforms of several cameras are published first as one message, and
+/// CameraInfo, for which the lens must be fitted, after all other messages. set() and describe() belong to the thread
+/// of the node's callbacks, everything else to the thread of one reader.
 class CameraOutput {
  public:
   /// Advertises `params`, `constants`, `camera_info`, `time_code` and `lens_encoders` in the namespace of `node`, and
-  /// publishes the parameter's constants where there are any. `markers` is a topic that cameras share; it is used only
-  /// where publish_markers is set.
+  /// publishes the constants of the parameter, if any. `markers` is a topic shared by all cameras; it is used only if
+  /// publish_markers is set.
   CameraOutput(::ros::NodeHandle node, const ros1::CameraParameters&, std::optional<double> field_rate, int queue_size,
                const ::ros::Publisher& markers);
 
   bool wants(const wire::Record& record) const noexcept { return pipeline_.wants(record); }
-  /// What comes of a sample, not calibrated. `now` is the steady clock's time of receipt, ns.
+  /// Processes a sample, without calibration. `now` is the time of receipt on the steady clock, ns.
   bridge::CameraUpdate process(const transport::Sample&, std::int64_t now);
-  /// Makes the messages of an update that is not empty. Those of the one before must have been published.
+  /// Fills the messages of an update that is not empty. Those of the update before must have been published.
   void make(const bridge::CameraUpdate&);
   /// Whether there is anything to publish.
   bool is_ready() const noexcept { return is_ready_; }
-  /// The transform among it; null: none.
+  /// The transform to be published; null: none.
   const geometry_msgs::TransformStamped* transform() const noexcept;
-  /// Publishes it, but for the transform and the CameraInfo, before it returns.
+  /// Publishes all messages except the transform and the CameraInfo.
   void publish();
-  /// Makes and publishes the CameraInfo, and the markers: the last of what is ready.
+  /// Makes and publishes the CameraInfo and the markers. To be called last.
   void publish_camera_info();
 
-  /// Changes what can be changed, from the next sample on. For the thread of describe().
+  /// Changes options from the next sample on. For the thread of describe().
   void set(const bridge::LiveOptions&);
   const bridge::LiveOptions& live() const noexcept { return options_; }
 
-  /// `report` is of this moment but for the camera's part, which is added here. Findings of a kind that was not met
-  /// before go to the log, too.
+  /// `report` is a current report without the data of the camera, which are added here. The first finding of each kind
+  /// is also logged.
   bridge::Status describe(bridge::CameraReport report);
 
-  /// As they were given.
+  /// The parameters at start.
   const ros1::CameraParameters& parameters() const noexcept { return parameters_; }
 
  private:
@@ -66,7 +66,7 @@ class CameraOutput {
   std::optional<ros1::CameraMarkers> markers_;
   double field_rate_;
   ::ros::Publisher params_, constants_, camera_info_, time_code_, lens_encoders_, marker_topic_;
-  bridge::CameraOptions options_;  // with what was changed since, of the thread of describe()
+  bridge::CameraOptions options_;  // with later changes; for the thread of describe()
   base::Snapshot<bridge::LiveOptions> live_;
   std::atomic<bool> is_changed_{false};
   base::Snapshot<bridge::CameraStatistics> statistics_;

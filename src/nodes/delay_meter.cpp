@@ -18,7 +18,7 @@ namespace trk_bridge::nodes {
 namespace {
 
 constexpr double period = 1;          // s between two measurements
-constexpr std::uint32_t frames = 10;  // that wait for the node
+constexpr std::uint32_t frames = 10;  // queue size
 
 }  // namespace
 
@@ -48,13 +48,13 @@ DelayMeter::DelayMeter(::ros::NodeHandle node, const ::ros::NodeHandle& private_
 }
 
 void DelayMeter::Input::refuse(const std::string& why) {
-  if (refused++ == 0) ROS_WARN_STREAM("delay_meter: " << topic << ": left out: " << why);
+  if (refused++ == 0) ROS_WARN_STREAM("delay_meter: " << topic << ": ignored: " << why);
   last_refusal = why;
 }
 
 void DelayMeter::receive(const trk_bridge::CameraConstants& message) {
-  if (meter_.use(ros1::from_msg(message)) == camera::ConstantsChange::invalid) {
-    ROS_WARN_STREAM("delay_meter: constants that describe no picture are not used");
+  if (meter_.use(ros1::from_msg(message)) == camera::ConstantsChange::unsound) {
+    ROS_WARN_STREAM("delay_meter: invalid constants are ignored");
   }
 }
 

@@ -1,4 +1,4 @@
-// The delay between a camera's video and its tracking, measured live: what the node and the nodelet share.
+// Measures the delay between a camera's video and its tracking live; shared by the node and the nodelet.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,9 @@
 
 namespace trk_bridge::nodes {
 
-/// Compares `image` with `params` and `constants` over the newest `window` seconds, once a second. What it finds is in
-/// the diagnostics, until it finds something else, and the delay (std_msgs/Float64, s, positive: the video is later) on
-/// `~delay`, once for each second in which the camera moved enough. Runs from construction to destruction; all
-/// callbacks come from one thread.
+/// Compares `image` with `params` and `constants` over the newest `window` seconds, once a second. Diagnostics show the
+/// last result; the delay (std_msgs/Float64, s, positive: the video is later) is published on `~delay`, once a second
+/// if the camera moved enough. Runs from construction to destruction; all callbacks are called from one thread.
 class DelayMeter {
  public:
   /// Topics are in the namespace of `node`, parameters in that of `private_node`. Throws ParameterError.
@@ -29,7 +28,7 @@ class DelayMeter {
   DelayMeter& operator=(const DelayMeter&) = delete;
 
  private:
-  /// What came on a topic.
+  /// Statistics of a topic.
   struct Input {
     std::string topic;
     std::uint64_t received = 0, refused = 0;

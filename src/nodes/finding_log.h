@@ -1,4 +1,4 @@
-// The log's share of the diagnostics: every event, and of other findings every kind once.
+// Logs findings of the diagnostics: every event, and each other kind once.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ class FindingLog {
   /// Lines begin with `subject`.
   explicit FindingLog(std::string subject) : subject_(std::move(subject)) {}
 
-  /// Logs events, and findings of a kind that was not met before.
+  /// Logs events, and the first finding of each kind.
   void write(const std::vector<bridge::Finding>&);
 
  private:

@@ -1,4 +1,4 @@
-// Services that change what a node does while it runs.
+// Services that change options of a running node.
 #pragma once
 
 #include <functional>
@@ -14,14 +14,14 @@
 
 namespace trk_bridge::nodes {
 
-/// What a service answers: done, or why not.
+/// The response of a service: success, or the reason of the failure.
 struct Answer {
   bool success = false;
   std::string message;
 };
 
-/// A service of type trk_bridge/SetSeconds that refuses numbers outside of the range. `change` is called in the thread
-/// of the node's callbacks.
+/// A service of type trk_bridge/SetSeconds that refuses numbers outside the range. `change` is called in the thread of
+/// the node's callbacks.
 inline ::ros::ServiceServer advertise_seconds(::ros::NodeHandle& node, const std::string& name,
                                               const ros1::Range& range, std::function<Answer(double)> change) {
   using Service = trk_bridge::SetSeconds;
@@ -35,7 +35,7 @@ inline ::ros::ServiceServer advertise_seconds(::ros::NodeHandle& node, const std
       });
 }
 
-/// Likewise of type std_srvs/SetBool.
+/// The same with type std_srvs/SetBool.
 inline ::ros::ServiceServer advertise_switch(::ros::NodeHandle& node, const std::string& name,
                                              std::function<Answer(bool)> change) {
   using Service = std_srvs::SetBool;

@@ -17,13 +17,13 @@ using bridge::MasterState;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds period{5};
-constexpr std::chrono::seconds patience{2};  // with an answer
-constexpr double slice = 0.1;                // s, after which it sees that it is to stop
+constexpr std::chrono::seconds patience{2};  // timeout of an answer
+constexpr double slice = 0.1;                // s, interval at which it checks whether to stop
 
-/// One question, asked without blocking: ros::master::execute() waits for ever for a master that has hung.
-class Question : public XmlRpc::XmlRpcClient {
+/// One request that does not block: ros::master::execute() would wait forever for a master that hangs.
+class Request : public XmlRpc::XmlRpcClient {
  public:
-  Question() : XmlRpcClient(::ros::master::getHost().c_str(), static_cast<int>(::ros::master::getPort()), "/") {}
+  Request() : XmlRpcClient(::ros::master::getHost().c_str(), static_cast<int>(::ros::master::getPort()), "/") {}
 
   bool begin() {
     XmlRpc::XmlRpcValue request;
@@ -31,12 +31,12 @@ class Question : public XmlRpc::XmlRpcClient {
     request[1] = ::ros::this_node::getName();
     return executeNonBlock("lookupNode", request);
   }
-  /// Whether it is over; to be called again until then.
+  /// Call repeatedly until it returns true: the request is finished.
   bool work() {
     _disp.work(slice);
     return over_;
   }
-  /// The master's answer once it is over; invalid where there is none.
+  /// The answer of the master after the end of the request; invalid if there is none.
   XmlRpc::XmlRpcValue answer() {
     XmlRpc::XmlRpcValue given;
     executeCheckDone(given);
@@ -79,15 +79,15 @@ void MasterWatch::run() {
 }
 
 std::optional<bool> MasterWatch::ask() {
-  Question question;
-  if (!question.begin()) return std::nullopt;
+  Request request;
+  if (!request.begin()) return std::nullopt;
   const auto end = Clock::now() + patience;
-  while (!question.work()) {
+  while (!request.work()) {
     if (stopping_ || Clock::now() > end) return std::nullopt;
   }
-  auto answer = question.answer();
+  auto answer = request.answer();
   if (answer.getType() != XmlRpc::XmlRpcValue::TypeArray || answer.size() < 3) return std::nullopt;
-  // A node of this name that is not this one has taken its place.
+  // Another node with the same name may have replaced this one.
   return answer[0] == XmlRpc::XmlRpcValue(1) &&
          answer[2] == XmlRpc::XmlRpcValue(::ros::XMLRPCManager::instance()->getServerURI());
 }

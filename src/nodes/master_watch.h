@@ -1,4 +1,4 @@
-// Asks the ROS master from time to time whether it still knows this node.
+// Checks periodically whether the ROS master still knows this node.
 #pragma once
 
 #include <atomic>
@@ -13,8 +13,8 @@
 
 namespace trk_bridge::nodes {
 
-/// A master that is restarted has lost what nodes registered, and roscpp does not register again. Asks from a thread of
-/// its own, from construction to destruction, which waits for no answer.
+/// A restarted master has lost all registrations of nodes, and roscpp does not register again. Asks from its own
+/// thread, from construction to destruction; destruction does not wait for an answer.
 class MasterWatch {
  public:
   MasterWatch();
@@ -22,14 +22,14 @@ class MasterWatch {
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
 
-  /// Any thread, here and below. Once `forgot`, it stays so.
+  /// Any thread, here and below. `forgot` is final.
   bridge::MasterState state() const noexcept { return state_; }
   /// When the master last answered, steady clock, ns; 0: never.
   std::int64_t answered() const noexcept { return answered_; }
 
  private:
   void run();
-  /// Whether the master knows this node; none where it does not answer.
+  /// Whether the master knows this node; none if it does not answer.
   std::optional<bool> ask();
 
   std::atomic<bridge::MasterState> state_{bridge::MasterState::unasked};

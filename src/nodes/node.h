@@ -1,4 +1,4 @@
-// What nodes have in common, as programs and as nodelets. A `Node` is constructed from (node handle, private node
+// Code shared by all nodes, as programs and as nodelets. A `Node` is constructed from (node handle, private node
 // handle, full name) and runs from construction to destruction.
 #pragma once
 
@@ -21,8 +21,8 @@
 
 namespace trk_bridge::nodes {
 
-/// What `read` makes of all private parameters, an invalid value when there are none. Its ParameterError gets the
-/// remedy.
+/// The result of `read` for all private parameters (an invalid value if there are none). Adds the remedy to a
+/// ParameterError.
 template <typename Read>
 auto read_parameters(const ::ros::NodeHandle& private_node, const Read& read) {
   XmlRpc::XmlRpcValue tree;
@@ -34,14 +34,14 @@ auto read_parameters(const ::ros::NodeHandle& private_node, const Read& read) {
   }
 }
 
-/// The last element of a namespace names the camera in it; `camera` in the root.
+/// The last element of a namespace is the name of its camera; `camera` in the root namespace.
 inline std::string camera_name_of(const std::string& name_space) {
   const std::string last = name_space.substr(name_space.find_last_of('/') + 1);
   return last.empty() ? "camera" : last;
 }
 
-/// Runs a `Node` until ROS shuts down or SIGINT or SIGTERM comes. Returns the exit status: 1 and a fatal message with
-/// the reason when it cannot start, 2 for arguments that nobody knows.
+/// Runs a `Node` until ROS shuts down or SIGINT or SIGTERM is received. Returns the exit status: 1 with a fatal message
+/// if it cannot start, 2 for unknown arguments.
 template <typename Node>
 int node_main(int argc, char** argv, const char* name) {
   base::open_standard_descriptors();
@@ -54,12 +54,12 @@ int node_main(int argc, char** argv, const char* name) {
                           << "'; only parameters (_name:=value) are accepted");
     return 2;
   }
-  // Outlives the catch: with the last handle ROS shuts down, and the log with it.
+  // Must outlive the catch block: ROS and its log shut down with the last handle.
   const ::ros::NodeHandle node;
   try {
     const Node running(node, ::ros::NodeHandle("~"), ::ros::this_node::getName());
-    // As ros::spin(), but the node is destroyed while there still is a log.
-    while (::ros::ok() && !base::StopSignals::received()) {
+    // Like ros::spin(), but the node is destroyed while the log still works.
+    while (::ros::ok() && !base::StopSignals::came()) {
       ::ros::getGlobalCallbackQueue()->callAvailable(::ros::WallDuration(0.1));
     }
   } catch (const std::exception& error) {
@@ -69,7 +69,7 @@ int node_main(int argc, char** argv, const char* name) {
   return 0;
 }
 
-/// Runs a `Node` from loading to unloading. A failed start is a fatal message with the reason, and an exception, so
+/// Runs a `Node` from loading to unloading. If it cannot start, it logs a fatal message with the reason and throws, so
 /// that loading fails.
 template <typename Node>
 class RunningNodelet : public nodelet::Nodelet {

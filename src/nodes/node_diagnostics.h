@@ -1,4 +1,4 @@
-// A node's statuses on /diagnostics, sent at their period also while nothing else happens.
+// Publishes the statuses of a node on /diagnostics periodically.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@
 
 namespace trk_bridge::nodes {
 
-/// Statuses are named `<name>: <subject>` and sent from the callback queue of `node`, whose thread calls their
-/// functions. The last one is about ROS itself, in every node.
+/// Statuses are named `<name>: <subject>` and published from the callback queue of `node`, whose thread calls their
+/// functions. The last one, about ROS itself, is the same in all nodes.
 class NodeDiagnostics {
  public:
   NodeDiagnostics(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node, const std::string& name);
 
   void add(const std::string& subject, std::function<bridge::Status()> describe);
-  /// To be called when all have been added.
+  /// Call after all statuses are added.
   void start();
 
  private:

@@ -1,4 +1,4 @@
-// Sets from the topics `params` and `constants`.
+// Input of ros_to_trk from the topics `params` and `constants`.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -14,7 +14,7 @@
 
 namespace trk_bridge::nodes {
 
-/// Writes within the topics' callbacks: one queue with one thread at a time serves them.
+/// Writes in the callbacks of the topics, which are called by one thread at a time.
 class ParamsInput : public TrkInput {
  public:
   /// Subscribes in the namespace of `node`.

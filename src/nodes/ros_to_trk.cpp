@@ -40,7 +40,7 @@ RosToTrk::RosToTrk(const ::ros::NodeHandle& node, const ::ros::NodeHandle& priva
                             {}});
   }
   bridge::DepartureOptions options;
-  // On arrival, the input does not give more.
+  // Without pace, the input limits the rate.
   options.rate = parameters.rate;
   options.feed = bridge::Feed::one_camera;
   options.clock = [] { return ros1::from_time(::ros::Time::now()); };
@@ -82,7 +82,7 @@ Answer RosToTrk::change_timing() {
   const auto text = [](std::int64_t nanoseconds) { return ros1::shown(static_cast<double>(nanoseconds) / 1e9) + " s"; };
   const auto timing = bridge::timing_of(form_);
   return {true, "delay " + text(timing.delay.position) + ", lead " + text(timing.lead) +
-                    ", for all sinks that a timer sends to and whose URL says nothing else"};
+                    ", for all sinks that a timer sends to, except where their URL sets it"};
 }
 
 }  // namespace trk_bridge::nodes

@@ -1,4 +1,4 @@
-// ROS topics and tf to trk endpoints: what the node and the nodelet share.
+// ROS topics and tf to trk endpoints; shared by the node and the nodelet.
 #pragma once
 
 #include <memory>
@@ -18,22 +18,22 @@
 
 namespace trk_bridge::nodes {
 
-/// Runs from construction to destruction. Diagnostics go out from the callback queue of `node`.
+/// Runs from construction to destruction. Diagnostics are published from the callback queue of `node`.
 class RosToTrk {
  public:
-  /// Topics are in the namespace of `node`, parameters in that of `private_node`; `name` is the node's or nodelet's
-  /// full name. Throws ParameterError and TransportError; a recording or a segment that cannot be opened is no error
-  /// here but in the diagnostics.
+  /// Topics are in the namespace of `node`, parameters in that of `private_node`; `name` is the full name of the node
+  /// or nodelet. Throws ParameterError and TransportError. If a recording or a segment cannot be opened, nothing is
+  /// thrown: diagnostics report it.
   RosToTrk(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node, const std::string& name);
 
  private:
   /// Services `set_delay` and `set_lead`.
   void advertise_services(::ros::NodeHandle);
-  /// Gives `form_` to what a timer sends and has no delay or lead of its own; the answer says to how many.
+  /// Applies delay and lead of `form_` to all paced destinations that do not set their own.
   Answer change_timing();
 
-  std::vector<transport::SinkForm> own_forms_;  // of the destinations, as far as they say something
-  transport::SinkForm form_;                    // for those that do not; of the thread of the callbacks
+  std::vector<transport::SinkForm> own_forms_;  // of the destinations, as their URLs set it
+  transport::SinkForm form_;                    // defaults for them; for the thread of the callbacks
   SinkOutputs sinks_;
   std::optional<SentTopic> sent_;
   std::optional<bridge::Departures> departures_;

@@ -16,7 +16,7 @@ SentTopic::SentTopic(::ros::NodeHandle node, const ros1::RosToTrkParameters& par
 
 void SentTopic::write(const wire::Record& record, std::int64_t time) {
   if (const auto* constants = std::get_if<wire::CameraConstants>(&record)) {
-    // Those that leave no picture are not given by the input.
+    // The input does not pass invalid constants.
     static_cast<void>(converter_.use(*constants));
     return;
   }
@@ -26,7 +26,7 @@ void SentTopic::write(const wire::Record& record, std::int64_t time) {
   statistics_.last_stamp = time;
   published_.store(statistics_);
   auto converted = converter_.convert(params).params;
-  // Sinks without a form of their own report why.
+  // The sinks report the reason.
   if (!converted) return;
   converted->id = bridge::sent_id(form_, params.id);
   auto& message = messages_.renew();

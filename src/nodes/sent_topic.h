@@ -1,4 +1,4 @@
-// What goes out of tf, as a topic.
+// Publishes what ros_to_trk sends for tf as a topic.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ namespace trk_bridge::nodes {
 struct SentStatistics {
   std::uint64_t sets = 0;
   std::int64_t last = 0;        ///< steady clock, ns; valid once sets > 0
-  std::int64_t last_stamp = 0;  ///< of the last pose, ns since 1970; 0: none or of a static pose
+  std::int64_t last_stamp = 0;  ///< of the last pose, ns since 1970; 0: none, or a static pose
 };
 
-/// The topic `sent`: each set that the parameters of the node say, in its own form and stamped with the time of its
-/// pose. trk has no times, so that only the counter tells a receiver's pose from the next.
+/// The topic `sent`: each set in the form of the node's parameters, stamped with the time of its pose. trk records have
+/// no time, so the counter identifies a pose at the receiver.
 class SentTopic {
  public:
   /// Advertises in the namespace of `node`.

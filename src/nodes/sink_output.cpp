@@ -17,7 +17,7 @@ bridge::OutletOptions options_for(const transport::SinkForm& form) {
   return options;
 }
 
-/// Also when ROS has shut down, and its log with it.
+/// Works also after ROS and its log have shut down.
 void log_error(const std::string& text) {
   if (::ros::ok()) {
     ROS_ERROR_STREAM(text);
@@ -35,7 +35,7 @@ SinkOutput::~SinkOutput() {
   if (const auto closed = outlet_.close(); !closed) {
     const auto lost = outlet_.unwritten();
     log_error(outlet_.name() + " was not closed in order: " + transport::describe(closed.error()) +
-              (lost > 0 ? "; " + std::to_string(lost) + " records that waited are lost" : ""));
+              (lost > 0 ? "; " + std::to_string(lost) + " queued records are lost" : ""));
   }
 }
 

@@ -1,4 +1,4 @@
-// One sink of ros_to_trk: written to, watched, reported.
+// One sink of ros_to_trk, with its diagnostics.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,26 @@
 
 namespace trk_bridge::nodes {
 
-/// write() belongs to one thread, describe() to the diagnostics' one.
+/// write() belongs to one thread, describe() to the thread of the diagnostics.
 class SinkOutput {
  public:
-  /// `form` is used for what the endpoint does not say. What can block is opened in a thread of its own, and that it
-  /// cannot be opened is in describe(). Throws TransportError for the others.
+  /// `form` has the defaults for options that the endpoint does not set. A sink that can block is opened in its own
+  /// thread, and describe() reports if that fails. Throws TransportError for other sinks.
   SinkOutput(const transport::SinkEndpoint&, const transport::SinkForm& form);
-  /// Closes it, and logs an error where that fails.
+  /// Closes it, and logs an error if that fails.
   ~SinkOutput();
   SinkOutput(const SinkOutput&) = delete;
   SinkOutput& operator=(const SinkOutput&) = delete;
 
   void write(const wire::Record& record, const transport::RecordTime& time) { outlet_.write(record, time); }
-  /// Nothing is written any more; does not wait.
+  /// Accepts no more records; does not wait.
   void finish() { outlet_.finish(); }
 
-  /// Findings of a kind that was not met before go to the log, too.
-  /// `departures` are its own.
+  /// The first finding of each kind is also logged. `departures` are those of this sink.
   bridge::Status describe(const std::optional<bridge::DepartureStatistics>& departures);
 
   const std::string& url() const noexcept { return outlet_.url(); }
-  /// With the defaults filled in.
+  /// The form of the endpoint with the defaults.
   const transport::SinkForm& form() const noexcept { return outlet_.form(); }
 
  private:
@@ -41,7 +40,7 @@ class SinkOutput {
   StatusReporter<bridge::SinkReport> reporter_;
 };
 
-/// All sinks of a node. They end at the same time.
+/// All sinks of a node. Their destructor lets them finish at the same time.
 class SinkOutputs {
  public:
   SinkOutputs() = default;

@@ -88,7 +88,7 @@ void SourceReader::dispatch(const transport::Sample& sample) {
 
 void SourceReader::publish() {
   auto& transforms = transforms_.renew().transforms;
-  // Kept elements keep the room of their texts.
+  // Elements that stay keep the memory of their strings.
   transforms.resize(ready_.size());
   std::size_t count = 0;
   for (const auto* camera : ready_) {

@@ -1,4 +1,4 @@
-// A thread that reads one source and hands every record to the cameras that want it.
+// A thread that reads one source and passes every record to its camera.
 #pragma once
 
 #include <memory>
@@ -18,12 +18,13 @@
 
 namespace trk_bridge::nodes {
 
-/// Reads from start() until it is destroyed, the source ends or fails. A source that failed stays so: its diagnostics
-/// say why, and the node lives on for its other sources. What arrives together, of different cameras, is published
-/// together: one message of tf, then the cameras' own messages, then what needs a fit of their lenses.
+/// Reads from start() until it is destroyed, or the source ends or fails. A failed source is not reopened: its
+/// diagnostics report the reason, and the node continues with its other sources. Samples of different cameras that
+/// arrive together are published together: one tf message, then the messages of the cameras, then those that need a
+/// lens fit.
 class SourceReader {
  public:
-  /// The cameras must outlive this and be fed by nobody else. `tf` is the topic of the cameras' transforms.
+  /// The cameras must outlive this object, and no other reader may use them. `tf` is the topic of the transforms.
   SourceReader(std::unique_ptr<transport::Source> source, std::vector<CameraOutput*> cameras,
                const ::ros::Publisher& tf);
   ~SourceReader();
@@ -32,14 +33,14 @@ class SourceReader {
 
   void start();
 
-  /// How it stands at this moment, but for the cameras' part. Any thread.
+  /// The current report, without the data of the cameras. Any thread.
   bridge::CameraReport report() const;
 
  private:
   void run();
   void read();
   void dispatch(const transport::Sample&);
-  /// All that is ready.
+  /// Publishes everything that is ready.
   void publish();
   void note_unknown(std::uint32_t id);
 
@@ -51,7 +52,7 @@ class SourceReader {
   bridge::ReaderStatistics statistics_;
   base::Snapshot<bridge::ReaderStatistics> published_;
   mutable std::mutex failure_mutex_;
-  std::string failure_;  // of the thread itself
+  std::string failure_;  // an exception in the thread
   std::thread thread_;
 };
 

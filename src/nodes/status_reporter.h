@@ -1,4 +1,4 @@
-// The diagnostics of one camera, input or sink: what changed since they were last asked for.
+// The diagnostics of one camera, input or sink since the last report.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ namespace trk_bridge::nodes {
 template <typename Report>
 class StatusReporter {
  public:
-  /// Lines of the log begin with `subject`. The first rates count from here.
+  /// Lines of the log begin with `subject`. The first rates are measured from construction.
   explicit StatusReporter(std::string subject) : log_(std::move(subject)) { last_.time = base::steady_now(); }
 
-  /// Findings of a kind that was not met before go to the log, too. `options` are what findings() of this report needs.
+  /// The first finding of each kind is also logged. `options` are arguments of findings() for this report.
   template <typename... Options>
   bridge::Status status(Report now, const Options&... options) {
     const auto found = bridge::findings(now, last_, options...);

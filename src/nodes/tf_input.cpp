@@ -13,7 +13,7 @@
 namespace trk_bridge::nodes {
 namespace {
 
-/// Hz, at which it looks for what does not come by itself.
+/// Hz, polling rate if no tf arrives.
 constexpr double default_rate = 50;
 
 }  // namespace
@@ -24,7 +24,7 @@ TfInput::TfInput(::ros::NodeHandle node, const ros1::RosToTrkParameters& paramet
       parameters_(parameters),
       sent_(sent),
       period_(std::llround(1e9 / parameters.rate.value_or(default_rate))),
-      gate_(parameters.studio_frame, parameters.camera_frame),
+      transform_filter_(parameters.studio_frame, parameters.camera_frame),
       sets_(parameters.tf),
       reporter_(parameters.name),
       tf_thread_(1, &tf_queue_) {
@@ -69,25 +69,25 @@ void TfInput::receive(const ::ros::MessageEvent<const tf2_msgs::TFMessage>& even
     const std::lock_guard<std::mutex> lock(mutex_);
     for (const auto& transform : event.getConstMessage()->transforms) {
       if (is_static) {
-        gate_.add_static(transform.header.frame_id, transform.child_frame_id);
+        transform_filter_.add_static(transform.header.frame_id, transform.child_frame_id);
       } else if (!passes(transform, sender, ros_now)) {
         continue;
       }
       transforms_.setTransform(transform, sender, is_static);
     }
-    came_ = true;
+    has_new_tf_ = true;
   }
   changed_.notify_all();
 }
 
 bool TfInput::passes(const geometry_msgs::TransformStamped& transform, const std::string& sender,
                      std::int64_t ros_now) {
-  if (gate_.ros_time_went_back(ros_now)) start_over();
+  if (transform_filter_.ros_time_went_back(ros_now)) start_over();
   const bridge::StampedLink link{transform.header.frame_id, transform.child_frame_id,
                                  ros1::from_time(transform.header.stamp), sender};
-  const auto verdict = gate_.judge(link, ros_now, base::steady_now());
-  if (verdict == bridge::TransformGate::Verdict::restart) start_over();
-  return verdict != bridge::TransformGate::Verdict::refuse;
+  const auto verdict = transform_filter_.judge(link, ros_now, base::steady_now());
+  if (verdict == bridge::TransformFilter::Verdict::restart) start_over();
+  return verdict != bridge::TransformFilter::Verdict::refuse;
 }
 
 void TfInput::start_over() {
@@ -107,9 +107,9 @@ void TfInput::receive(const sensor_msgs::CameraInfo& message) {
 void TfInput::run() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stopping_) {
-    changed_.wait_for(lock, period_, [this] { return stopping_ || came_; });
-    came_ = false;
-    if (!stopping_) look(lock);
+    changed_.wait_for(lock, period_, [this] { return stopping_ || has_new_tf_; });
+    has_new_tf_ = false;
+    if (!stopping_) process_newest_pose(lock);
   }
 }
 
@@ -122,15 +122,15 @@ TfInput::Pose TfInput::newest_pose() const {
 }
 
 bool TfInput::is_due(bool is_static, std::int64_t now) {
-  // A static pose is there all the time, and a timer of its own decides what is sent of the others.
+  // Only static poses are limited here if Departures has a timer or there is no rate.
   if (!is_static && (parameters_.pace || !parameters_.rate)) return true;
-  // One that comes a little early costs none where tf comes at the rate.
+  // Slightly early poses are accepted, so that none is lost if tf arrives at this rate.
   if (now < due_ - period_.count() / 4) return false;
   due_ = std::max(due_, now) + period_.count();
   return true;
 }
 
-void TfInput::look(std::unique_lock<std::mutex>& lock) {
+void TfInput::process_newest_pose(std::unique_lock<std::mutex>& lock) {
   const auto ros_now = ros1::from_time(::ros::Time::now());
   const auto pose = newest_pose();
   pose_fault_ = pose ? std::string() : pose.error();
@@ -139,10 +139,10 @@ void TfInput::look(std::unique_lock<std::mutex>& lock) {
   last_pose_ = stamp;
   if (!sets_.is_new(stamp) || !is_due(stamp == 0, base::steady_now())) return;
   ahead_ = stamp == 0 || ros_now == 0 ? 0 : stamp - ros_now;
-  const auto restarts = gate_.statistics().restarts;
-  // tf and camera_info of one moment come on connections of their own.
+  const auto restarts = transform_filter_.statistics().restarts;
+  // tf and camera_info of the same time arrive on different connections.
   changed_.wait_for(lock, period_ / 4, [&] { return stopping_ || !sets_.expects_lens(stamp); });
-  if (stopping_ || restarts != gate_.statistics().restarts) return;
+  if (stopping_ || restarts != transform_filter_.statistics().restarts) return;
   const auto set = sets_.make(ros1::to_isometry(pose->transform), stamp, base::steady_now());
   if (!set) return;
   lock.unlock();
@@ -155,13 +155,13 @@ bridge::Status TfInput::describe() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     report.tf = sets_.statistics();
-    // Of sets, those that have left count, whatever the input has given.
+    // Counts the sets that were sent, not those that the input passed on.
     const auto sent = sent_.statistics();
     report.tf.sets = sent.sets;
     report.tf.last_set = sent.last;
     report.tf.last_stamp = sent.last_stamp;
     report.pose_fault = pose_fault_;
-    report.gate = gate_.statistics();
+    report.filter = transform_filter_.statistics();
     report.last_pose = last_pose_;
     report.ahead = ahead_;
   }

@@ -1,4 +1,4 @@
-// Sets from tf and the topics `camera_info` and `lens`.
+// Input of ros_to_trk from tf and the topics `camera_info` and `lens`.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@
 #include <tl/expected.hpp>
 
 #include "bridge/outgoing_diagnostics.h"
-#include "bridge/transform_gate.h"
+#include "bridge/transform_filter.h"
 #include "ros/ros_to_trk_parameters.h"
 #include "sent_topic.h"
 #include "status_reporter.h"
@@ -27,10 +27,9 @@
 
 namespace trk_bridge::nodes {
 
-/// A thread of its own gives every pose of tf that is newer, as it comes, with its lens; without pace not more than the
-/// rate says. A static pose it gives at the rate. When they go out is the matter of Departures.
-/// tf is received by another thread, through a gate: stamps that are wrong, and clocks that are set, cost less than 1
-/// s.
+/// Its own thread passes on every newer pose of tf when it arrives, with its lens; without pace at most at the rate. A
+/// static pose is passed on at the rate. Departures decides when they are sent. Another thread receives tf through a
+/// filter: after wrong stamps, or when a clock is set, less than 1 s is lost.
 class TfInput : public TrkInput {
  public:
   /// Subscribes in the namespace of `node`.
@@ -43,13 +42,13 @@ class TfInput : public TrkInput {
   using Pose = tl::expected<geometry_msgs::TransformStamped, std::string>;
 
   void run();
-  /// Gives the newest pose, where it is new.
-  void look(std::unique_lock<std::mutex>&);
-  /// Whether a pose may be given now, without exceeding the rate. `now` is the steady clock, ns.
+  /// Passes on the newest pose, if it is new.
+  void process_newest_pose(std::unique_lock<std::mutex>&);
+  /// Whether a pose may be passed on now without exceeding the rate. `now` is the steady clock, ns.
   bool is_due(bool is_static, std::int64_t now);
   Pose newest_pose() const;
   void receive(const ::ros::MessageEvent<const tf2_msgs::TFMessage>&, bool is_static);
-  /// Whether the transform may go into `transforms_`, which is emptied before where a clock was set. `ros_now` in ns.
+  /// Whether the transform may be put into `transforms_`, which is cleared first if a clock was set. `ros_now` in ns.
   bool passes(const geometry_msgs::TransformStamped&, const std::string& sender, std::int64_t ros_now);
   void start_over();
   void receive(const sensor_msgs::CameraInfo&);
@@ -59,18 +58,18 @@ class TfInput : public TrkInput {
   const SentTopic& sent_;
   const std::chrono::nanoseconds period_;
 
-  mutable std::mutex mutex_;  // of all between here and the next comment
+  mutable std::mutex mutex_;  // protects the members up to last_pose_, ahead_
   std::condition_variable changed_;
   bool stopping_ = false;
-  bool came_ = false;     // tf
+  bool has_new_tf_ = false;
   std::int64_t due_ = 0;  // steady clock, ns
   tf2::BufferCore transforms_;
-  bridge::TransformGate gate_;
+  bridge::TransformFilter transform_filter_;
   bridge::TfToTrk sets_;
-  std::string pose_fault_ = "not looked yet";
+  std::string pose_fault_ = "not checked yet";
   std::int64_t last_pose_ = 0, ahead_ = 0;
 
-  StatusReporter<bridge::TfReport> reporter_;  // of the diagnostics
+  StatusReporter<bridge::TfReport> reporter_;  // used by the diagnostics
 
   std::thread thread_;
   ::ros::CallbackQueue tf_queue_;

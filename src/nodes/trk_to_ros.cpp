@@ -14,12 +14,12 @@
 namespace trk_bridge::nodes {
 namespace {
 
-/// A queue for the bursts of each of `cameras`.
+/// Queue size of a topic shared by `cameras` cameras.
 std::uint32_t queue_for(std::ptrdiff_t cameras, const ros1::TrkToRosParameters& parameters) {
   return static_cast<std::uint32_t>(parameters.queue_size) * static_cast<std::uint32_t>(cameras);
 }
 
-/// One topic for all cameras that have markers.
+/// One topic for all cameras with markers.
 ::ros::Publisher advertise_markers(::ros::NodeHandle& private_node, const ros1::TrkToRosParameters& parameters) {
   const auto count = std::count_if(parameters.cameras.begin(), parameters.cameras.end(),
                                    [](const auto& camera) { return camera.publish_markers; });
@@ -76,7 +76,7 @@ void TrkToRos::advertise_services(CameraOutput& camera, ::ros::NodeHandle node) 
     services_.push_back(advertise_switch(node, "set_" + parameter, [&camera, parameter, what](bool on) {
       const bridge::LiveOptions& at_start = camera.parameters().options;
       if (!(at_start.*what)) {
-        return Answer{false, parameter + " was false when the node started: what it needs is not there"};
+        return Answer{false, parameter + " was false when the node started: it cannot be switched on later"};
       }
       auto live = camera.live();
       live.*what = on;

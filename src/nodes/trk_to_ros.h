@@ -1,4 +1,4 @@
-// trk endpoints to ROS topics and tf: what the node and the nodelet share.
+// trk endpoints to ROS topics and tf; shared by the node and the nodelet.
 #pragma once
 
 #include <memory>
@@ -16,12 +16,12 @@
 
 namespace trk_bridge::nodes {
 
-/// Runs from construction to destruction. Diagnostics go out from the callback queue of `node`, records from the
-/// readers' threads; static transforms and the parameters' constants from the constructor.
+/// Runs from construction to destruction. Diagnostics are published from the callback queue of `node`, records from the
+/// threads of the readers, static transforms and the constants of the parameters from the constructor.
 class TrkToRos {
  public:
-  /// Topics are in the namespace of `node`, parameters in that of `private_node`; `name` is the node's or nodelet's
-  /// full name. Throws ParameterError and TransportError.
+  /// Topics are in the namespace of `node`, parameters in that of `private_node`; `name` is the full name of the node
+  /// or nodelet. Throws ParameterError and TransportError.
   TrkToRos(const ::ros::NodeHandle& node, ::ros::NodeHandle private_node, const std::string& name);
 
  private:

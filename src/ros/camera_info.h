@@ -1,4 +1,4 @@
-// CameraInfo messages as the bridge uses them.
+// Converts CameraInfo messages for the bridge.
 #pragma once
 
 #include <sensor_msgs/CameraInfo.h>
@@ -7,10 +7,10 @@
 
 namespace trk_bridge::ros1 {
 
-/// Size, model, D and K. Header, R, P, binning and region of interest are not looked at. Allocates only when `info` is
-/// new, or its model or number of coefficients changes.
+/// Converts size, model, D and K. Header, R, P, binning and region of interest are ignored. Allocates only if `info` is
+/// new, or if its model or number of coefficients changes.
 void from_msg(const sensor_msgs::CameraInfo& message, bridge::CameraInfo& info);
-/// The same as a new one.
+/// The same, as a new object.
 bridge::CameraInfo from_msg(const sensor_msgs::CameraInfo& message);
 
 }  // namespace trk_bridge::ros1

@@ -10,13 +10,14 @@ namespace {
 
 sensor_msgs::CameraInfo camera_info_in(const std::string& frame) {
   auto message = in_frame<sensor_msgs::CameraInfo>(frame);
-  // Room for the longer of both models, which copies of the message keep: a change of the lens allocates nothing.
+  // Reserves memory for the longer of both models, which copies of the message keep: then a change of the lens does not
+  // allocate.
   message.distortion_model = camera::name(camera::DistortionModel::rational_polynomial);
   message.D.resize(8);
   return message;
 }
 
-/// Puts what `value` is into a message that nobody has.
+/// Converts `value` into an unused message of the pool.
 template <typename Value, typename Message>
 void fill(MessagePool<Message>& pool, const Value& value, const ::ros::Time& stamp) {
   auto& message = pool.renew();

@@ -1,4 +1,4 @@
-// A camera's messages, from the updates of its pipeline.
+// The messages of a camera, made from the updates of its pipeline.
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>
@@ -14,18 +14,18 @@
 
 namespace trk_bridge::ros1 {
 
-/// Not synchronised. A sample allocates nothing, unless subscribers in the same process keep many of its messages (see
+/// Not synchronised. Does not allocate per sample, unless subscribers in the same process keep many messages (see
 /// MessagePool).
 class CameraMessages {
  public:
   explicit CameraMessages(const CameraFrames&);
 
-  /// Makes the messages of all that is in an update, with its stamp; the others stay as they are.
+  /// Makes messages of everything in an update, with its stamp; the other messages stay unchanged.
   void make(const bridge::CameraUpdate&);
-  /// The CameraInfo of an update alone, which must have a calibration.
+  /// Makes only the CameraInfo of an update, which must have a calibration.
   void make_camera_info(const bridge::CameraUpdate&);
 
-  /// To be published as they are, not to be changed any more.
+  /// For publishing; they must not be changed.
   const auto& params() const noexcept { return params_.current(); }
   const auto& constants() const noexcept { return constants_.current(); }
   const auto& camera_info() const noexcept { return camera_info_.current(); }

@@ -17,7 +17,7 @@ DelayMeterParameters read_delay_meter_parameters(const XmlRpc::XmlRpcValue& tree
   if (node.number("field_rate", field_rate, field_rate_range)) parameters.field_rate = field_rate;
   node.constants("constants", parameters.constants);
   node.integer("queue_size", parameters.queue_size, {1, 100000});
-  // image_transport reads it itself.
+  // Read by image_transport.
   node.know("image_transport");
   node.finish();
   return parameters;

@@ -12,15 +12,16 @@ namespace trk_bridge::ros1 {
 
 /// Parameters of the node, with their defaults.
 struct DelayMeterParameters {
-  std::string name;                                ///< the camera's: names its diagnostics
+  std::string name;                                ///< of the camera and its diagnostics
   double window = 15;                              ///< s of video that are compared
-  double most_delay = 0.5;                         ///< s, to both sides
+  double most_delay = 0.5;                         ///< s, in both directions
   std::optional<double> field_rate;                ///< Hz; none: the rate of params
-  std::optional<wire::CameraConstants> constants;  ///< until some are received
-  int queue_size = 100;                            ///< params that wait for the node
+  std::optional<wire::CameraConstants> constants;  ///< used until others are received
+  int queue_size = 100;                            ///< messages of params
 };
 
-/// Reads a node's private parameters; `camera_name` names the camera. Throws ParameterError with every fault.
+/// Reads the private parameters of a node; `camera_name` is the name of the camera. Throws ParameterError with all
+/// faults.
 DelayMeterParameters read_delay_meter_parameters(const XmlRpc::XmlRpcValue& tree, const std::string& camera_name);
 
 }  // namespace trk_bridge::ros1

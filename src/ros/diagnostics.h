@@ -1,4 +1,4 @@
-// Statuses as diagnostic_updater sends them.
+// Converts statuses for diagnostic_updater.
 #pragma once
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
@@ -7,7 +7,7 @@
 
 namespace trk_bridge::ros1 {
 
-/// Level, message, hardware id and values; the name stays.
+/// Converts level, message, hardware id and values; the name stays unchanged.
 void to_msg(const bridge::Status& status, diagnostic_updater::DiagnosticStatusWrapper& message);
 
 }  // namespace trk_bridge::ros1

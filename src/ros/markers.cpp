@@ -9,7 +9,7 @@ namespace {
 
 using visualization_msgs::Marker;
 
-/// Places in MarkerArray::markers.
+/// Indices of MarkerArray::markers.
 enum Place : std::size_t { frustum, axis, focus, name, count };
 
 struct Look {
@@ -68,14 +68,14 @@ CameraMarkers::CameraMarkers(const std::string& camera, const std::string& optic
 
 const visualization_msgs::MarkerArray& CameraMarkers::draw(const sensor_msgs::CameraInfo& info, double focdist) {
   from_msg(info, info_);
-  if (!known_ || !same_calibration(info_, *known_)) take_lens();
+  if (!known_ || !same_calibration(info_, *known_)) update_lens();
   if (!border_) {
     ++statistics_.not_drawn;
     return remove(info.header.stamp);
   }
   visible_ = true;
   for (const Place place : {frustum, axis, name}) markers_.markers[place].action = Marker::ADD;
-  take_focus(focdist);
+  update_focus(focdist);
   stamp(info.header.stamp);
   return markers_;
 }
@@ -87,7 +87,7 @@ const visualization_msgs::MarkerArray& CameraMarkers::remove(const ::ros::Time& 
   return markers_;
 }
 
-void CameraMarkers::take_lens() {
+void CameraMarkers::update_lens() {
   known_ = info_;
   border_.reset();
   focdist_ = 0;
@@ -106,7 +106,7 @@ void CameraMarkers::take_lens() {
   set_points(camera::frustum_lines(*border_, marker_near, far_), markers_.markers[frustum]);
 }
 
-void CameraMarkers::take_focus(double focdist) {
+void CameraMarkers::update_focus(double focdist) {
   Marker& plane = markers_.markers[focus];
   if (!camera::draws_focus(focdist)) {
     plane.action = Marker::DELETE;

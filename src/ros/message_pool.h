@@ -1,4 +1,4 @@
-// Messages that are published by pointer, and used again once nobody has them any more.
+// Messages that are published by pointer and reused when no subscriber holds them any more.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace trk_bridge::ros1 {
 
-/// Empty but for its frame.
+/// An empty message with a frame.
 template <typename Message>
 Message in_frame(const std::string& frame) {
   Message message;
@@ -19,28 +19,27 @@ Message in_frame(const std::string& frame) {
   return message;
 }
 
-/// What is published by pointer reaches subscribers of the same process as it is: nothing is serialised or copied for
-/// them, and the message is theirs for as long as they like. Not synchronised; subscribers' threads may let go of
-/// messages at any time. Allocates only while subscribers keep more messages than `size`.
+/// Subscribers in the same process receive the published pointer: nothing is serialised or copied for them, and they
+/// may keep the message. Not synchronised; threads of subscribers may release messages at any time. Allocates only
+/// while subscribers keep more than `size` messages.
 template <typename Message>
 class MessagePool {
  public:
   static constexpr std::size_t size = 8;
 
-  /// Every new message begins as a copy of `prototype`.
+  /// Every new message is a copy of `prototype`.
   explicit MessagePool(const Message& prototype) : prototype_(prototype) {
     for (auto& message : messages_) message = boost::make_shared<Message>(prototype_);
   }
   MessagePool(const MessagePool&) = delete;
   MessagePool& operator=(const MessagePool&) = delete;
 
-  /// Makes a message that nobody else has the current one. It holds what an earlier one held: all of it must be
-  /// written.
+  /// Makes an unused message the current one. It contains old data: all members must be written.
   Message& renew() {
     now_ = (now_ + 1) % size;
     auto& message = messages_[now_];
     if (message.use_count() != 1) message = boost::make_shared<Message>(prototype_);
-    // What the last subscriber read of it was before.
+    // The last reads of subscribers happened before this.
     std::atomic_thread_fence(std::memory_order_acquire);
     return *message;
   }

@@ -252,7 +252,7 @@ bool ParameterReader::constants(const std::string& key, std::optional<wire::Came
   bool complete = true;
   for (const char* needed : {"image_width", "image_height", "chip_width", "chip_height"}) {
     if (reader->has(needed)) continue;
-    reader->fault(needed, "must be given (blanks and fake chip may be left out)");
+    reader->fault(needed, "must be given (blanks and fake chip are optional)");
     complete = false;
   }
   reader->refuse_unknown();
@@ -303,7 +303,7 @@ void ParameterReader::refuse_unknown() {
   for (const auto& key : keys()) {
     if (contains(known_, key)) continue;
     fault(key, text_of(tree_[key]),
-          "no such parameter, nearest is " + base::nearest(key, known_) + "; known are " + joined(known_, ", "));
+          "unknown parameter, nearest is " + base::nearest(key, known_) + "; known are " + joined(known_, ", "));
   }
 }
 

@@ -1,4 +1,4 @@
-// A node's private parameters, read in one pass: every fault is found, and all are shown at once.
+// Reads the private parameters of a node in one pass, and reports all faults at once.
 #pragma once
 
 #include <algorithm>
@@ -19,19 +19,19 @@
 
 namespace trk_bridge::ros1 {
 
-/// What is wrong with a node's parameters.
+/// The faults in the parameters of a node.
 struct ParameterFaults {
   std::vector<std::string> lines;  ///< each names the key, the value and what is allowed
-  std::vector<std::string> given;  ///< keys whose values are on the master and refused, relative to the node's name
+  std::vector<std::string> given;  ///< keys with refused values on the master, relative to the name of the node
 };
 
-/// The text has one line for every fault.
+/// The text has one line per fault.
 class ParameterError : public std::runtime_error {
  public:
   explicit ParameterError(ParameterFaults faults);
 
-  /// The same, and how to remove from the master what is refused: it stays there when the node ends, and would make the
-  /// next start fail. `node` is the node's full name.
+  /// The same, with commands that remove the refused parameters from the master: they stay there when the node ends,
+  /// and would make the next start fail. `node` is the full name of the node.
   ParameterError with_remedy(const std::string& node) const;
 
  private:
@@ -40,7 +40,7 @@ class ParameterError : public std::runtime_error {
   ParameterFaults faults_;
 };
 
-/// The values that a number may have. Infinite ones and NaN are in no range.
+/// A range of numbers. It never contains infinite values or NaN.
 struct Range {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
@@ -58,73 +58,73 @@ constexpr Range more_than(double least, const char* unit, double most = std::num
   return {least, most, unit, /*excludes_least=*/true};
 }
 
-/// Values as faults show them.
+/// Formats values for fault texts.
 std::string shown(const std::string& text);
 std::string shown(double number);
 
-/// Why a camera cannot be called this, if it cannot: topics and frames are named after it.
+/// The error is the reason why this is not a valid name of a camera, from which names of topics and frames are made.
 tl::expected<void, std::string> check_camera_name(const std::string&);
-/// What tf accepts as a frame.
+/// A frame name that tf accepts.
 tl::expected<std::string, std::string> parse_frame(const std::string&);
 
-/// Reads one map of parameters. Every function that reads a value leaves `into` as it is, which is the default, where
-/// the key is not given; where it is given and wrong, that is a fault. They return whether a value was read. Rules
-/// between parameters come after that: fault() where a rule is broken and all its parameters are_sound().
+/// Reads one map of parameters. A function that reads a value does not change `into`, which contains the default, if
+/// the key is not given; a wrong value is a fault. It returns whether a value was read. Rules between parameters are
+/// checked afterwards: call fault() if a rule is broken and all its parameters are_sound().
 class ParameterReader {
  public:
-  /// Of all private parameters of a node, whose keys begin with "~" in faults. A tree that is not a map is a fault and
-  /// read as an empty one.
+  /// For all private parameters of a node, whose keys begin with "~" in faults. A tree that is not a map is a fault and
+  /// treated as empty.
   explicit ParameterReader(const XmlRpc::XmlRpcValue& tree);
 
-  /// Integers are numbers, too.
+  /// Accepts integers as well.
   bool number(const std::string& key, double& into, const Range& = {});
   bool integer(const std::string& key, int& into, const Range& = {});
   /// true or false.
   bool flag(const std::string& key, bool& into);
-  /// One of some words.
+  /// One of several words.
   template <typename Value>
   bool choice(const std::string& key, Value& into, std::initializer_list<std::pair<const char*, Value>> words);
-  /// A text, kept as what `parse` makes of it: tl::expected<…, std::string>(const std::string&).
+  /// A text, converted by `parse`: tl::expected<…, std::string>(const std::string&).
   template <typename Value, typename Parse>
   bool parsed(const std::string& key, Value& into, const Parse& parse);
-  /// A list of texts, each kept parsed; one text is a list of one.
+  /// A list of texts, each converted by `parse`; a single text counts as a list with one element.
   template <typename Value, typename Parse>
   bool parsed_list(const std::string& key, std::vector<Value>& into, const Parse& parse);
-  /// A camera's number, 0 to 4294967295. Integers of the master end at 2147483647: larger ones are texts, or numbers
-  /// with a point, which rosrun makes of them.
+  /// A camera id, 0 to 4294967295. Integers of the master end at 2147483647: larger ids are texts, or floating-point
+  /// numbers, to which rosrun converts them.
   bool id(const std::string& key, std::optional<std::uint32_t>& into);
   /// A map of the ten constants.
   bool constants(const std::string& key, std::optional<wire::CameraConstants>& into);
-  /// Checks `diagnostic_period`, seconds, which diagnostic_updater reads itself.
+  /// Checks `diagnostic_period`, seconds, which diagnostic_updater reads.
   void diagnostic_period();
-  /// A map, for a reader of its own; its faults are shown with this one's.
+  /// A nested map with its own reader, whose faults are reported together with those of this one.
   std::optional<ParameterReader> map(const std::string& key);
-  /// Whether `key` is given as a map, or as a text, where it may be something else as well.
+  /// Whether `key` is given as a map or as a text, if other types are allowed, too.
   bool is_map(const std::string& key);
   bool is_text(const std::string& key);
 
   /// Makes `key` known without reading it.
   void know(const std::string& key);
-  /// Whether `key` is given, sound or not.
+  /// Whether `key` is given, valid or not.
   bool has(const std::string& key) const;
-  /// Keys that are given, sorted.
+  /// The given keys, sorted.
   std::vector<std::string> keys() const;
 
-  /// Where keys are not given here, are_sound() asks `outer`, which must outlive this and its copies.
+  /// For keys that are not given here, are_sound() asks `outer`, which must outlive this object and its copies.
   void inherit(const ParameterReader& outer) { outer_ = &outer; }
-  /// Whether none of these keys has a wrong value of its own: only then a rule between them can be judged.
+  /// Whether none of these keys has a wrong value: only then a rule between them can be checked.
   bool are_sound(std::initializer_list<const char*> keys) const;
   /// Adds the line "KEY = VALUE: ALLOWED".
   void fault(const std::string& key, const std::string& value, const std::string& allowed);
   /// Adds the line "KEY: TEXT".
   void fault(const std::string& key, const std::string& text);
 
-  /// Adds a line that is about no key.
+  /// Adds a line without a key.
   void fault(const std::string& text);
 
-  /// Makes a fault of every key that is given and not known, with the nearest one that is.
+  /// Adds a fault for every unknown key, with the nearest known one.
   void refuse_unknown();
-  /// The end of reading: refuses what is unknown, and throws ParameterError when there is any fault.
+  /// Call at the end: refuses unknown keys, and throws ParameterError if there is any fault.
   void finish();
 
  private:
@@ -138,13 +138,13 @@ class ParameterReader {
   void add_line(const std::string& key, const std::string& line);
 
   XmlRpc::XmlRpcValue tree_;
-  std::string path_;  // of its keys, relative to the node's name
+  std::string path_;  // prefix of its keys, relative to the name of the node
   std::shared_ptr<ParameterFaults> faults_;
   std::vector<std::string> known_, faulty_;
   const ParameterReader* outer_ = nullptr;
 };
 
-/// Adds a fault for a name that is none: it comes from the node's namespace, or is a key of `cameras`.
+/// Adds a fault for an invalid name, which comes from the namespace of the node or is a key of `cameras`.
 void check_camera_name(const std::string& name, ParameterReader&);
 
 template <typename Value>

@@ -23,7 +23,7 @@ void read_sinks(ParameterReader& node, const std::string& preset, std::vector<tr
   }
 }
 
-/// Gives the name of the preset; empty where there is none.
+/// Returns the name of the preset; empty if there is none.
 std::string read_form(ParameterReader& node, transport::SinkForm& form) {
   node.parsed("format", form.format, wire::format_from_words);
   std::optional<endpoints::Preset> preset;
@@ -32,7 +32,7 @@ std::string read_form(ParameterReader& node, transport::SinkForm& form) {
   if (!preset) return {};
   if (node.has("format")) {
     if (node.are_sound({"format"})) {
-      node.fault("preset", shown(preset->name), "must not be given with format, which it stands for");
+      node.fault("preset", shown(preset->name), "must not be set together with format, because it sets the format");
     }
     return {};
   }
@@ -49,7 +49,7 @@ void read_delay(ParameterReader& node, transport::SinkForm& form) {
     double position = 0, rotation = 0, lens = 0;
     auto parts = *node.map("delay");
     for (auto [key, into] : {std::pair{"position", &position}, {"rotation", &rotation}, {"lens", &lens}}) {
-      if (!parts.has(key)) parts.fault(key, "(none)", "must be given: a delay is of position, rotation and lens");
+      if (!parts.has(key)) parts.fault(key, "(none)", "must be given: a delay has position, rotation and lens");
       parts.number(key, *into, sink_delay_range);
     }
     parts.refuse_unknown();
@@ -112,8 +112,8 @@ void check_input(ParameterReader& node, OutgoingInput input) {
   }
   if (node.has("constants")) {
     node.fault("constants",
-               "belongs to input params; with input tf the picture is camera_info's, give chip_width, chip_height "
-               "and blanks");
+               "belongs to input params; with input tf the image size comes from camera_info: set chip_width, "
+               "chip_height and blanks");
   }
 }
 

@@ -17,13 +17,13 @@ tl::expected<transport::SourceEndpoint, std::string> parse_source(const std::str
   return endpoints::parse_source(url);
 }
 
-/// A camera and the reader of its parameters, which knows which of them are sound.
+/// A camera and the reader of its parameters, which knows which of them are valid.
 struct Reading {
   CameraParameters camera;
   ParameterReader reader;
 };
 
-/// What a camera has of its own or inherits from the node.
+/// Parameters that a camera has itself or inherits from the node.
 void read_shared(ParameterReader& reader, CameraParameters& camera) {
   auto& options = camera.options;
   reader.parsed("source", camera.source, parse_source);
@@ -48,7 +48,7 @@ void read_shared(ParameterReader& reader, CameraParameters& camera) {
   reader.number("marker_far", camera.marker_far, more_than(marker_near, "metres", 1000));
 }
 
-/// What only one camera can have, and the rules between all that it has.
+/// Parameters that belong to one camera only, and the rules between all its parameters.
 void read_own(ParameterReader& reader, const std::string& name, CameraParameters& camera) {
   auto& frames = camera.frames;
   camera.name = name;
@@ -74,11 +74,11 @@ void read_own(ParameterReader& reader, const std::string& name, CameraParameters
   }
   if (reader.are_sound({"publish_markers", "publish_camera_info"}) && camera.publish_markers &&
       !camera.options.publish_camera_info) {
-    reader.fault("publish_markers", "true", "needs publish_camera_info, whose lens is drawn");
+    reader.fault("publish_markers", "true", "needs publish_camera_info, because its lens is drawn");
   }
 }
 
-/// A frame has one parent in tf, so that cameras cannot share one.
+/// A frame has only one parent in tf, so cameras cannot share a frame.
 void check_frames_of_pair(Reading& one, const Reading& before) {
   const auto& frames = one.camera.frames;
   const auto& taken = before.camera.frames;
@@ -94,7 +94,7 @@ void check_frames_of_pair(Reading& one, const Reading& before) {
   }
 }
 
-/// That the records of one source can be told apart.
+/// Checks that the records of cameras with the same source can be distinguished.
 void check_ids_of_pair(Reading& one, Reading& before) {
   if (!one.reader.are_sound({"id"}) || !before.reader.are_sound({"id"})) return;
   const auto& id = one.camera.options.id;
@@ -103,7 +103,7 @@ void check_ids_of_pair(Reading& one, Reading& before) {
     (id ? before : one)
         .reader.fault("id", "(none)",
                       "cameras " + before.camera.name + " and " + one.camera.name + " share " +
-                          shown(one.camera.source->url) + ": each must have its id");
+                          shown(one.camera.source->url) + ": each must have an id");
   } else if (id == taken) {
     one.reader.fault("id", std::to_string(*id),
                      "is camera " + before.camera.name + "'s, too: ids on one source must differ");
@@ -120,14 +120,14 @@ void check_pair(Reading& one, Reading& before) {
   } else if (source->place == other->place) {
     one.reader.fault("source", shown(source->url),
                      "camera " + before.camera.name + " reads the same port, slot or file as " + shown(other->url) +
-                         ": cameras on one source must have the very same URL");
+                         ": cameras on one source must have exactly the same URL");
   }
 }
 
 std::vector<CameraParameters> read_cameras(ParameterReader& node, const CameraParameters& shared) {
   for (const char* key : {"id", "camera_frame", "optical_frame"}) {
     node.know(key);
-    if (node.has(key)) node.fault(key, "with cameras, it belongs to each of them");
+    if (node.has(key)) node.fault(key, "belongs to each camera if cameras is set");
   }
   auto cameras = node.map("cameras");
   if (!cameras) return {};

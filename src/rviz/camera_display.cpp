@@ -42,7 +42,7 @@ bool is_advertised(const std::string& topic, const std::string& type) {
   });
 }
 
-/// `name` beside `topic` in its namespace.
+/// The topic `name` in the namespace of `topic`.
 QString sibling(const QString& topic, const char* name) { return topic.left(topic.lastIndexOf('/') + 1) + name; }
 
 }  // namespace
@@ -71,7 +71,7 @@ void CameraDisplay::onDisable() {
 
 void CameraDisplay::reset() {
   Display::reset();
-  // Subscribed again: what is latched comes only once.
+  // Subscribes again, because latched messages are received only once per subscription.
   if (isEnabled()) onEnable();
 }
 
@@ -151,7 +151,7 @@ std::optional<CameraDisplay::Sample> CameraDisplay::choose(const FixedFrame& fix
 }
 
 void CameraDisplay::draw(const Sample& sample, const FixedFrame& fixed) {
-  if (lens_.look_through(*sample.info)) shape_changed_ = true;
+  if (lens_.update(*sample.info)) shape_changed_ = true;
   const double focus_distance = sample.params ? sample.params->focdist : 0;
   if (shape_changed_ || focus_distance != focus_distance_) {
     figure_->shape(lens_.border(), focus_distance, style_);

@@ -1,4 +1,4 @@
-// The display "Camera" of rviz.
+// The rviz display "Camera".
 #pragma once
 
 #include <memory>
@@ -21,19 +21,19 @@ namespace trk_bridge::rviz_display {
 
 class FixedFrame;
 
-/// Draws a tracked camera: its lens from CameraInfo, its pose from tf at the CameraInfo's own stamp, and what only
-/// CameraParams know. Messages are received in rviz's other thread and looked at once a rendered frame.
+/// Draws a tracked camera: its lens from CameraInfo, its pose from tf at the stamp of the CameraInfo, and data that
+/// only CameraParams contain. Messages are received in the second thread of rviz and processed once per rendered frame.
 class CameraDisplay : public rviz::Display {
   Q_OBJECT
  public:
   CameraDisplay();
   ~CameraDisplay() override;
 
-  /// Once a rendered frame.
+  /// Called once per rendered frame.
   void update(float wall_dt, float ros_dt) override;
-  /// Time went back, or the user wants to start again.
+  /// Called when time went back, or when the user resets the display.
   void reset() override;
-  /// Of either type; the other topic is taken from the same namespace where it is advertised there.
+  /// Accepts topics of both types; the other topic is taken from the same namespace if it is advertised there.
   void setTopic(const QString& topic, const QString& datatype) override;
 
  private Q_SLOTS:
@@ -47,13 +47,13 @@ class CameraDisplay : public rviz::Display {
   void onDisable() override;
 
  private:
-  /// What one rendered frame shows.
+  /// The content of one rendered frame.
   struct Sample {
     boost::shared_ptr<const sensor_msgs::CameraInfo> info;
-    boost::shared_ptr<const trk_bridge::CameraParams> params;  ///< null where there are none
+    boost::shared_ptr<const trk_bridge::CameraParams> params;  ///< null if there are none
     Eigen::Isometry3d fixed_T_optical = Eigen::Isometry3d::Identity();
     std::optional<camera::PanTiltRoll> angles;  ///< of `params`
-    std::string pose_fault;                     ///< why they have none
+    std::string pose_fault;                     ///< why `params` have no valid pose
   };
 
   void forget();
@@ -75,7 +75,7 @@ class CameraDisplay : public rviz::Display {
   double focus_distance_ = 0;  // m, as drawn
   bool shape_changed_ = true;
   Trail trail_;
-  std::string trail_fixed_frame_;  // that its points are in
+  std::string trail_fixed_frame_;  // the frame of its points
   std::unique_ptr<CameraFigure> figure_;
 };
 

@@ -107,7 +107,7 @@ void CameraFigure::place(const Eigen::Isometry3d& fixed_T_optical) {
 }
 
 void CameraFigure::write(const std::string& name, const std::string& values, const FigureStyle& style) {
-  // Clear of the body however it is turned.
+  // Outside the body in any orientation.
   const double distance = style.body.on ? 0.45 * style.body.length : 0.02;
   const auto write_one = [distance](Label& label, const std::string& text, const FigureStyle::Text& as) {
     label.show(as.on ? text : "", as.colour, static_cast<float>(as.height), static_cast<float>(distance));

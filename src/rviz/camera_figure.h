@@ -1,4 +1,4 @@
-// A camera in the scene.
+// Draws a camera in the scene.
 #pragma once
 
 #include <string>
@@ -11,19 +11,19 @@
 
 namespace trk_bridge::rviz_display {
 
-/// Lengths and line widths in m, colours with their alpha.
+/// Lengths and line widths in m, colours with alpha.
 struct FigureStyle {
   struct Frustum {
     bool on = true;
     Ogre::ColourValue colour;
     double near = 0.2, far = 3;  ///< not drawn unless near < far
   } frustum;
-  /// Outline in full colour, the area within with the colour's alpha.
+  /// Outline opaque, area inside with the alpha of the colour.
   struct ImagePlane {
     bool on = true;
     Ogre::ColourValue colour;
     double distance = 1;
-    bool undistorted = true;  ///< the pinhole's outline, too, dashed
+    bool undistorted = true;  ///< also the outline of the pinhole camera, dashed
   } image_plane;
   struct FocusPlane {
     bool on = true;
@@ -50,21 +50,21 @@ struct FigureStyle {
     double length = 5;  ///< seconds
     double line_width = 0.01;
   } trail;
-  double line_width = 0.01;  ///< of all but the trail
+  double line_width = 0.01;  ///< of all lines except the trail
 };
 
-/// For the thread that renders. Nothing is seen of it before place() and shape().
+/// For the rendering thread. Nothing is visible before place() and shape().
 class CameraFigure {
  public:
   CameraFigure(Ogre::SceneManager* scene, Ogre::SceneNode* fixed);
 
-  /// The lines and areas that follow from the lens; with no border (the lens is none) the frustum and the planes are
-  /// left out. `focus_distance` in m.
+  /// Sets the lines and areas that depend on the lens; without border (invalid lens) frustum and planes are not drawn.
+  /// `focus_distance` in m.
   void shape(const camera::ImageBorder* border, double focus_distance, const FigureStyle& style);
   void place(const Eigen::Isometry3d& fixed_T_optical);
   void write(const std::string& name, const std::string& values, const FigureStyle& style);
   void draw(const Trail& trail, const FigureStyle& style);
-  /// All of it or nothing.
+  /// Shows or hides everything.
   void set_visible(bool visible);
 
  private:

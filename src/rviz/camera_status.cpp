@@ -39,7 +39,7 @@ bool CameraStatus::topic(const std::string& name, const TopicState& state) {
 
 void CameraStatus::camera_info(const TopicState& state) {
   if (state.topic.empty() && state.fault.empty()) {
-    set(StatusLevel::warn, "Camera Info", "no topic is chosen");
+    set(StatusLevel::warn, "Camera Info", "no topic selected");
   } else if (topic("Camera Info", state)) {
     set(StatusLevel::ok, "Camera Info", std::to_string(state.received) + " messages received");
   }
@@ -52,7 +52,7 @@ void CameraStatus::camera_params(const TopicState& state, const std::string& pos
     if (pose_fault.empty()) {
       set(StatusLevel::ok, "Camera Params", std::to_string(state.received) + " messages received");
     } else {
-      set(StatusLevel::warn, "Camera Params", "they have no valid pose, tf's is shown: " + pose_fault);
+      set(StatusLevel::warn, "Camera Params", "no valid pose, that of tf is shown: " + pose_fault);
     }
   }
 }
@@ -62,8 +62,8 @@ void CameraStatus::constants(const TopicState& info, const TopicState& params) {
     set(StatusLevel::ok, "Constants", "known");
   } else if (params.alive && info.received == 0 && !info.topic.empty()) {
     set(StatusLevel::warn, "Constants",
-        "unknown: CameraParams come, but no CameraInfo; trk_to_ros makes none before the camera's constants have come "
-        "or are set");
+        "unknown: CameraParams are received, but no CameraInfo; trk_to_ros publishes none until constants of the "
+        "camera are received or set");
   } else {
     lines_.remove("Constants");
   }

@@ -1,4 +1,4 @@
-// The status lines of a camera's display.
+// The status lines of the display.
 #pragma once
 
 #include <cstdint>
@@ -11,30 +11,30 @@
 
 namespace trk_bridge::rviz_display {
 
-/// What a topic's line shows.
+/// The state of a topic.
 struct TopicState {
-  std::string topic;  ///< empty: none is chosen
-  std::string fault;  ///< why it could not be subscribed to; empty: it was
+  std::string topic;  ///< empty: none selected
+  std::string fault;  ///< why subscribing failed; empty: it did not
   std::uint64_t received = 0;
   ros::Time last_arrival;
-  bool alive = false;  ///< messages still come
+  bool alive = false;  ///< messages are received
 };
 
-/// Every function is to be called once a rendered frame while its line is to be seen. For one thread.
+/// Call each function once per rendered frame as long as its line should be visible. For one thread.
 class CameraStatus {
  public:
   CameraStatus(StatusLines::Show show, StatusLines::Remove remove) : lines_(std::move(show), std::move(remove)) {}
 
-  /// The display's clear of all lines has been or will be called.
+  /// Call when the display clears all lines.
   void forget() { lines_.forget(); }
-  /// `now` in ROS time, `steady` in seconds, of the calls that follow.
+  /// Sets the time for the following calls: `now` in ROS time, `steady` in seconds.
   void begin(const ros::Time& now, double steady);
 
   void camera_info(const TopicState&);
-  /// `pose_fault`: why the pose of the parameters in use is none.
+  /// `pose_fault`: why the parameters have no valid pose.
   void camera_params(const TopicState&, const std::string& pose_fault);
   void constants(const TopicState& info, const TopicState& params);
-  /// An empty reason: there is a transform.
+  /// Empty: there is a transform.
   void transform(const std::string& why_missing);
   void lens(const LensView&);
   /// A frustum between these depths, m.
@@ -42,10 +42,11 @@ class CameraStatus {
   /// `distance` is focdist in m.
   void focus_plane(double distance);
   void no_focus_plane() { lines_.remove("Focus Plane"); }
-  /// Of the CameraInfo that is drawn, or of the newest where none is.
+  /// Of the CameraInfo that is drawn, or of the newest if none is drawn.
   void age(const ros::Time& stamp, const ros::Time& arrival);
 
-  /// Nothing is drawn: no line about what is. The transform's stays where it is the reason, the age's always.
+  /// Nothing is drawn: removes the lines about drawn parts. Keeps that of the transform if it is the reason, and always
+  /// that of the age.
   void nothing_drawn(bool transform_missing);
 
  private:

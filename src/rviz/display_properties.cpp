@@ -9,7 +9,7 @@
 namespace trk_bridge::rviz_display {
 namespace {
 
-/// Makes the properties of one group. Changes go to the display's slot.
+/// Makes the properties of one group. Changes call a slot of the display.
 class Group {
  public:
   Group(rviz::Property* display, const char* name, const char* description, const char* changed)
@@ -53,7 +53,7 @@ class Group {
 constexpr float longest = 10000;    // m
 constexpr float shortest = 0.001f;  // m
 
-/// A configuration may hold what no editor takes.
+/// A configuration file may contain values that the editor refuses.
 double value_of(rviz::FloatProperty* property) {
   const float value = property->getFloat();
   return std::isfinite(value) ? value : property->getMin();
@@ -71,14 +71,14 @@ DisplayProperties::DisplayProperties(rviz::Property* display, const Slots& slots
     : info_topic_(new rviz::RosTopicProperty(
           "Camera Info Topic", "", ros::message_traits::datatype<sensor_msgs::CameraInfo>(),
           "sensor_msgs/CameraInfo: lens and optical frame of the camera.", display, slots.info_topic, display)),
-      params_topic_(new rviz::RosTopicProperty(
-          "Camera Params Topic", "", ros::message_traits::datatype<trk_bridge::CameraParams>(),
-          "trk_bridge/CameraParams of the same camera: plane in focus, image distance, pan tilt roll and counter. "
-          "May be empty.",
-          display, slots.params_topic, display)),
+      params_topic_(new rviz::RosTopicProperty("Camera Params Topic", "",
+                                               ros::message_traits::datatype<trk_bridge::CameraParams>(),
+                                               "trk_bridge/CameraParams of the same camera: plane in focus, image "
+                                               "distance, pan tilt roll and counter. Optional.",
+                                               display, slots.params_topic, display)),
       timeout_(new rviz::FloatProperty("Timeout", 5,
-                                       "Seconds of ROS time: with no CameraInfo for that long nothing is drawn. 0: the "
-                                       "last one is drawn as long as tf knows its pose.",
+                                       "Seconds of ROS time: nothing is drawn if there is no CameraInfo for this long. "
+                                       "0: the last one is drawn as long as tf has its pose.",
                                        display, slots.style, display)) {
   timeout_->setMin(0);
   add_frustum(display, slots.style);
@@ -89,26 +89,25 @@ DisplayProperties::DisplayProperties(rviz::Property* display, const Slots& slots
 }
 
 void DisplayProperties::add_frustum(rviz::Property* display, const char* changed) {
-  const Group group(
-      display, "Frustum",
-      "What the camera sees: the borders of its image at two depths, as the lens bends them, and the edges "
-      "through the corners.",
-      changed);
+  const Group group(display, "Frustum",
+                    "What the camera sees: the borders of its image at two depths with lens distortion, and the edges "
+                    "through the corners.",
+                    changed);
   frustum_ = {group.on(),
               group.colour({255, 170, 0}, "Of the lines."),
               group.alpha(1, "0: invisible, 1: opaque."),
               group.number("Near", 0.2f, shortest, longest, "Depth of the near border, m; less than Far."),
               group.number("Far", 3, shortest, longest, "Depth of the far border, m; more than Near."),
-              group.line_width("m, of all lines but the trail's.")};
+              group.line_width("m, of all lines except the trail.")};
 }
 
 void DisplayProperties::add_planes(rviz::Property* display, const char* changed) {
-  const Group image(display, "Image Plane", "The image's border as the lens bends it, at one depth, filled.", changed);
-  image_plane_ = {
-      image.on(), image.colour({85, 200, 255}, "Of outlines and area."),
-      image.alpha(0.12f, "Of the area; the outlines are opaque. 0: invisible, 1: opaque."),
-      image.number("Distance", 1, shortest, longest, "Depth, m."),
-      image.flag("Undistorted", "The straight border of a pinhole camera with the same K beside it, dashed.")};
+  const Group image(display, "Image Plane", "The border of the image with lens distortion at one depth, filled.",
+                    changed);
+  image_plane_ = {image.on(), image.colour({85, 200, 255}, "Of outlines and area."),
+                  image.alpha(0.12f, "Of the area; the outlines are opaque. 0: invisible, 1: opaque."),
+                  image.number("Distance", 1, shortest, longest, "Depth, m."),
+                  image.flag("Undistorted", "Also the straight border of a pinhole camera with the same K, dashed.")};
   const Group focus(display, "Focus Plane",
                     "The plane in focus, at focdist of CameraParams; not drawn without it, nor beyond 1000 m.",
                     changed);
@@ -126,26 +125,26 @@ void DisplayProperties::add_axis_and_body(rviz::Property* display, const char* c
 }
 
 void DisplayProperties::add_texts(rviz::Property* display, const char* changed) {
-  // Not "Name": that is where the configuration keeps the display's own.
+  // Not "Name": the configuration uses it for the name of the display.
   const Group name(display, "Camera Name", "Written above the camera.", changed);
-  name_ = {name.on(), name.text("Text", "Empty: the namespace of the CameraInfo's topic."),
+  name_ = {name.on(), name.text("Text", "Empty: the namespace of the CameraInfo topic."),
            name.colour({255, 255, 255}, "Of the letters."),
            name.number("Height", 0.18f, shortest, 100, "Of a capital letter, m.")};
   const Group values(display, "Values", "Written below the camera.", changed);
-  values_ = {
-      values.on(),
-      values.colour({220, 220, 220}, "Of the letters."),
-      values.number("Height", 0.12f, shortest, 100, "Of a capital letter, m."),
-      values.flag("Pan Tilt Roll", "Degrees: of CameraParams in the studio, without them of tf in the fixed frame."),
-      values.flag("Focal Length", "The image distance in mm where CameraParams have it, else fx in pixels."),
-      values.flag("Field of View", "Degrees, horizontal x vertical, through the middles of the image's edges."),
-      values.flag("Counter", "Of CameraParams.")};
+  values_ = {values.on(),
+             values.colour({220, 220, 220}, "Of the letters."),
+             values.number("Height", 0.12f, shortest, 100, "Of a capital letter, m."),
+             values.flag("Pan Tilt Roll",
+                         "Degrees: from CameraParams in the studio, without them from tf in the fixed frame."),
+             values.flag("Focal Length", "The image distance in mm if CameraParams contain it, else fx in pixels."),
+             values.flag("Field of View", "Degrees, horizontal x vertical, through the centres of the image edges."),
+             values.flag("Counter", "Of CameraParams.")};
 }
 
 void DisplayProperties::add_trail(rviz::Property* display, const char* changed) {
-  const Group trail(display, "Trail", "Where the optical centre was.", changed);
+  const Group trail(display, "Trail", "The path of the optical centre.", changed);
   trail_ = {trail.on(), trail.colour({200, 120, 255}, "Of the line."), trail.alpha(1, "0: invisible, 1: opaque."),
-            trail.number("Length", 5, 0, 600, "Seconds, by the stamps of the CameraInfos; 4000 points at most."),
+            trail.number("Length", 5, 0, 600, "Seconds, by the stamps of CameraInfo; at most 4000 points."),
             trail.line_width("m.")};
 }
 

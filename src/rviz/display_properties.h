@@ -1,4 +1,4 @@
-// What can be set of a camera's display, as the panel shows and the configuration keeps it.
+// The properties of the display, as in its panel and in the configuration file.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@
 
 namespace trk_bridge::rviz_display {
 
-/// Which words are wanted.
+/// Which values are shown.
 struct ValuesShown {
   bool pan_tilt_roll = true, focal_length = true, field_of_view = true, counter = true;
 };
 
-/// The properties are children of the display and live as long as it does.
+/// The properties are children of the display and exist as long as it does.
 class DisplayProperties {
  public:
-  /// Slots of `display`, as SLOT() makes them.
+  /// Slots of `display`, made with SLOT().
   struct Slots {
     const char* info_topic;
     const char* params_topic;
@@ -34,7 +34,7 @@ class DisplayProperties {
   rviz::RosTopicProperty* params_topic() const { return params_topic_; }
   /// Seconds; 0: never.
   double timeout() const;
-  /// The name to be written; empty for the topic's.
+  /// The name to be shown; empty: that of the topic.
   std::string name() const { return name_.text->getStdString(); }
   ValuesShown values_shown() const;
   FigureStyle style() const;

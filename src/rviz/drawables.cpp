@@ -19,7 +19,7 @@ Ogre::MaterialPtr make_material() {
   return material;
 }
 
-/// In the optical frame, for a body of length 1.
+/// In the optical frame, for a body with length 1.
 struct Part {
   rviz::Shape::Type type;
   Eigen::Vector3d center, size;
@@ -83,7 +83,7 @@ void Lines::show(const std::vector<Eigen::Vector3d>& pairs, const Ogre::ColourVa
 }
 
 void Lines::face_viewer() {
-  // Ogre turns a chain to its camera only when the chain itself has changed, not when node or camera have moved.
+  // Ogre turns a chain to its camera only when the chain has changed, not when node or camera have moved.
   line_.setLineWidth(width_);
 }
 
@@ -104,7 +104,7 @@ Body::Body(Ogre::SceneManager* scene, Ogre::SceneNode* optical) : node_(make_nod
 void Body::show(const Ogre::ColourValue& colour, float length) {
   for (const auto& shape : shapes_) {
     shape->setColor(colour.r, colour.g, colour.b, colour.a);
-    // rviz has but one light, from the viewer: sides along the view would be black.
+    // rviz has only one light, from the viewer: faces parallel to the view would be black.
     shape->getMaterial()->setSelfIllumination(colour * 0.35f);
   }
   node_->setScale(length, length, length);
@@ -115,7 +115,7 @@ void Body::hide() {
   if (node_->getParentSceneNode() != nullptr) optical_->removeChild(node_.get());
 }
 
-// The text cannot be made of nothing, nor of spaces alone.
+// MovableText does not accept an empty text, or only spaces.
 Label::Label(Ogre::SceneNode* parent, Side side) : node_(make_node(parent)), side_(side), text_("-") {
   text_.setTextAlignment(rviz::MovableText::H_CENTER,
                          side == Side::above ? rviz::MovableText::V_ABOVE : rviz::MovableText::V_BELOW);

@@ -1,5 +1,5 @@
-// What a camera is drawn with: Ogre's side of points and poses, and areas, lines, a body and words in a scene. Ogre
-// counts in floats.
+// Objects in a scene of Ogre: areas, lines, a body and text; and conversions of points and poses to Ogre, which uses
+// float.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ inline Ogre::Quaternion to_ogre(const Eigen::Quaterniond& rotation) {
           static_cast<float>(rotation.z())};
 }
 
-/// A scene node that is taken out of the scene with its owner. What is attached to it must go first.
+/// A scene node that is removed from the scene with its owner. Objects attached to it must be destroyed first.
 struct SceneNodeDeleter {
   void operator()(Ogre::SceneNode* node) const { node->getCreator()->destroySceneNode(node); }
 };
@@ -40,7 +40,7 @@ using ScopedSceneNode = std::unique_ptr<Ogre::SceneNode, SceneNodeDeleter>;
 
 inline ScopedSceneNode make_node(Ogre::SceneNode* parent) { return ScopedSceneNode(parent->createChildSceneNode()); }
 
-/// A filled area in one colour, unlit, seen from both sides.
+/// A filled area in one colour, unlit, visible from both sides.
 class Area {
  public:
   Area(Ogre::SceneManager* scene, Ogre::SceneNode* parent);
@@ -48,7 +48,7 @@ class Area {
   Area(const Area&) = delete;
   Area& operator=(const Area&) = delete;
 
-  /// Three points a triangle, in the parent's frame. None shows nothing.
+  /// Three points per triangle, in the frame of the parent. No points: nothing is shown.
   void show(const std::vector<Eigen::Vector3d>& triangles, const Ogre::ColourValue& colour);
   void hide() { object_->clear(); }
 
@@ -63,23 +63,24 @@ class Lines {
  public:
   Lines(Ogre::SceneManager* scene, Ogre::SceneNode* parent);
 
-  /// Pairs of points, a segment each, in the parent's frame; `width` in m. None shows nothing.
+  /// Pairs of points, one per segment, in the frame of the parent; `width` in m. No points: nothing is shown.
   void show(const std::vector<Eigen::Vector3d>& pairs, const Ogre::ColourValue& colour, float width);
   void hide() { line_.clear(); }
 
-  /// To be called before every frame: makes the lines as wide as they are for whoever looks at them from anywhere.
+  /// Call before every frame: turns the lines to the viewer, so that their width is right.
   void face_viewer();
 
  private:
   rviz::BillboardLine line_;
   float width_ = 0;
-  std::uint32_t room_ = 0;  // for so many segments
+  std::uint32_t room_ = 0;  // capacity in segments
 };
 
-/// A camera's body: a box behind the optical centre, the lens before it, a handle on top that shows which way is up.
+/// The body of a camera: a lens that ends in the optical centre, a box behind it, and a handle on top that shows the up
+/// direction.
 class Body {
  public:
-  /// `optical` is a node in the optical frame: the lens ends in its origin.
+  /// `optical` is a node in the optical frame: the lens ends at its origin.
   Body(Ogre::SceneManager* scene, Ogre::SceneNode* optical);
 
   /// `length` in m, from the lens to the end of the box.
@@ -92,11 +93,11 @@ class Body {
   std::array<std::unique_ptr<rviz::Shape>, 4> shapes_;
 };
 
-/// Words in the scene that face the viewer.
+/// Text in the scene that faces the viewer.
 class Label {
  public:
   enum class Side { above, below };
-  /// Stands above or below the node's origin, on top of whatever is in front of it.
+  /// Above or below the origin of the node; drawn over objects in front of it.
   Label(Ogre::SceneNode* parent, Side side);
 
   /// UTF-8; `height` of a capital letter and `distance` from the origin, up or down in the fixed frame, in m.

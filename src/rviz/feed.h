@@ -1,4 +1,4 @@
-// One topic of a display: what came of it, when, and whether it still comes.
+// Receives one topic of a display.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace trk_bridge::rviz_display {
 
-/// The received messages are handed over in collect(); everything but the reception itself is for one thread.
+/// collect() passes on the received messages; all functions are for one thread, messages are received in another.
 template <typename Message>
 class Feed {
  public:
   ~Feed() { unsubscribe(); }
 
-  /// Whatever was received before is forgotten; no topic is none. state() reports a name that no topic can have.
+  /// Discards everything received before; an empty topic subscribes to nothing. state() reports an invalid name.
   void subscribe(ros::NodeHandle& node, const std::string& topic) {
     unsubscribe();
     topic_ = topic;
@@ -39,7 +39,7 @@ class Feed {
     received_ = 0;
   }
 
-  /// Sorts in what has arrived; restarted where any of it was.
+  /// Adds the messages that have arrived; `restarted` if any of them was.
   Added collect() {
     auto result = Added::in_time;
     if (!inbox_) return result;
@@ -53,7 +53,7 @@ class Feed {
     return result;
   }
 
-  /// Whether one came in the last `timeout` seconds of ROS time; with 0, whether one ever came.
+  /// Whether a message arrived in the last `timeout` seconds of ROS time; with 0, whether one ever arrived.
   bool alive(const ros::Time& now, double timeout) const {
     return received_ > 0 && (timeout <= 0 || seconds_between(last_arrival_, now) <= timeout);
   }
@@ -67,7 +67,8 @@ class Feed {
 
  private:
   void listen(ros::NodeHandle& node) {
-    // Kept by the callback, too: one that is still running puts into what nobody reads any more.
+    // The callback holds a reference, too: a callback that is still running may write to an inbox that is not read any
+    // more.
     const auto inbox = std::make_shared<Inbox<Message>>();
     const boost::function<void(const boost::shared_ptr<const Message>&)> put =
         [inbox](const boost::shared_ptr<const Message>& message) { inbox->put(message, ros::Time::now()); };

@@ -10,14 +10,14 @@
 namespace trk_bridge::rviz_display {
 namespace {
 
-/// tf2 logs every question about such a frame.
-bool may_be_asked(const std::string& frame) { return !frame.empty() && frame.front() != '/'; }
+/// tf2 logs an error for each request with an invalid frame name.
+bool is_valid_frame(const std::string& frame) { return !frame.empty() && frame.front() != '/'; }
 
 }  // namespace
 
 bool FixedFrame::knows(const std::string& frame, const ros::Time& time) const {
   const std::string& fixed = frames_.getFixedFrame();
-  if (!may_be_asked(frame) || !may_be_asked(fixed)) return false;
+  if (!is_valid_frame(frame) || !is_valid_frame(fixed)) return false;
   return frames_.getTF2BufferPtr()->tf2::BufferCore::canTransform(fixed, frame, time);
 }
 
@@ -33,19 +33,19 @@ std::optional<Eigen::Isometry3d> FixedFrame::pose_of(const std::string& frame, c
     if (!pose.matrix().allFinite()) return std::nullopt;
     return pose;
   } catch (const tf2::TransformException&) {
-    return std::nullopt;  // it went between the two questions; why_unknown() is asked next
+    return std::nullopt;  // it expired since knows(); why_unknown() is called next
   }
 }
 
 std::string FixedFrame::why_unknown(const std::string& frame, const ros::Time& time) const {
-  if (frame.empty()) return "the CameraInfo's frame_id is empty";
-  if (!may_be_asked(frame)) return "frame_id \"" + frame + "\" begins with a slash, which tf2 does not allow";
-  if (!may_be_asked(frames_.getFixedFrame())) {
+  if (frame.empty()) return "the frame_id of CameraInfo is empty";
+  if (!is_valid_frame(frame)) return "frame_id \"" + frame + "\" begins with a slash, which tf2 does not allow";
+  if (!is_valid_frame(frames_.getFixedFrame())) {
     return "fixed frame \"" + frames_.getFixedFrame() + "\" is empty or begins with a slash, which tf2 does not allow";
   }
   std::string reason;
   if (frames_.transformHasProblems(frame, time, reason)) return reason;
-  return "the transform of frame \"" + frame + "\" is no pose: its rotation or position is not finite";
+  return "the transform of frame \"" + frame + "\" is invalid: its rotation or position is not finite";
 }
 
 }  // namespace trk_bridge::rviz_display

@@ -1,4 +1,4 @@
-// Poses in rviz's fixed frame.
+// Poses in the fixed frame of rviz.
 #pragma once
 
 #include <optional>
@@ -18,11 +18,11 @@ class FixedFrame {
  public:
   explicit FixedFrame(rviz::FrameManager& frames) : frames_(frames) {}
 
-  /// Whether pose_of() has an answer; costs no exception where it has none.
+  /// Whether pose_of() has a result; throws no exception internally if it has none.
   bool knows(const std::string& frame, const ros::Time& time) const;
-  /// fixed_T_frame at that time (0: the latest), nothing where tf does not know it or it is not finite.
+  /// fixed_T_frame at that time (0: the latest); none if tf does not know it, or if it is not finite.
   std::optional<Eigen::Isometry3d> pose_of(const std::string& frame, const ros::Time& time) const;
-  /// Why there is none, in tf's own words.
+  /// The reason why there is none, in the words of tf.
   std::string why_unknown(const std::string& frame, const ros::Time& time) const;
 
  private:

@@ -15,7 +15,7 @@ std::string numbers(const camera::ViewingLens& lens) {
 
 }  // namespace
 
-bool LensView::look_through(const sensor_msgs::CameraInfo& info) {
+bool LensView::update(const sensor_msgs::CameraInfo& info) {
   auto lens = bridge::viewing_lens(ros1::from_msg(info));
   if (!lens) {
     std::string fault = bridge::describe(lens.error());

@@ -1,4 +1,4 @@
-// A CameraInfo's lens as it is drawn, computed again only when it changes.
+// The lens of a CameraInfo as it is drawn, computed again only when it changes.
 #pragma once
 
 #include <optional>
@@ -12,16 +12,16 @@ namespace trk_bridge::rviz_display {
 
 class LensView {
  public:
-  /// Whether border() or fault() may be others than before.
-  bool look_through(const sensor_msgs::CameraInfo& info);
+  /// Returns whether border() or fault() may have changed.
+  bool update(const sensor_msgs::CameraInfo& info);
 
-  /// Null where the lens is none.
+  /// Null if the lens is invalid.
   const camera::ImageBorder* border() const { return border_ ? &*border_ : nullptr; }
-  /// Why it is none, for a person; empty where it is one.
+  /// Why it is invalid, for people; empty if it is valid.
   const std::string& fault() const { return fault_; }
-  /// What it is, for a person; empty where it is none.
+  /// A description for people; empty if it is invalid.
   std::string text() const;
-  /// fx in pixels; nothing where the lens is none.
+  /// fx in pixels; none if the lens is invalid.
   std::optional<double> focal_length() const;
 
   void forget() { *this = {}; }

@@ -1,5 +1,4 @@
-// The messages of one topic: between the thread that receives and the one that draws, and those that may still be
-// wanted.
+// The messages of one topic: a queue from the receiving to the drawing thread, and the recent messages.
 #pragma once
 
 #include <algorithm>
@@ -16,20 +15,20 @@
 
 namespace trk_bridge::rviz_display {
 
-/// Seconds from `from` to `to`. Stamps are compared as integers: ros::Duration overflows, and throws, between stamps
-/// that are far apart.
+/// Seconds from `from` to `to`. Stamps are compared as integers, because ros::Duration overflows and throws if stamps
+/// are far apart.
 inline double seconds_between(const ros::Time& from, const ros::Time& to) {
   return static_cast<double>(ros1::from_time(to) - ros1::from_time(from)) * 1e-9;
 }
 
-/// What add() made of a message.
+/// The result of add().
 enum class Added {
   in_time,    ///< newest, or late within the window
-  restarted,  ///< its stamp is older than the window: time went back, and everything before it is forgotten
+  restarted,  ///< its stamp is older than the window: time went back, and all earlier messages are discarded
 };
 
-/// Keeps half a second of them, at least two (a slow camera's last one is drawn until tf knows the next), at most
-/// `most`. A zero stamp means "now": such a message is alone. Not synchronised.
+/// Keeps the messages of 0.5 s, at least two (the last one of a slow camera is drawn until tf knows the next), at most
+/// `most`. A zero stamp means "now": such a message replaces all others. Not synchronised.
 template <typename Message>
 class Samples {
  public:
@@ -58,7 +57,7 @@ class Samples {
     return Added::in_time;
   }
 
-  /// The newest that `usable(message)` is true of; null where there is none.
+  /// The newest one for which `usable(message)` is true; null if there is none.
   template <typename Usable>
   Ptr newest(Usable usable) const {
     const auto found =
@@ -66,10 +65,10 @@ class Samples {
     return found == samples_.rend() ? nullptr : *found;
   }
 
-  /// The newest; null where there is none.
+  /// The newest; null if there is none.
   Ptr newest() const { return samples_.empty() ? nullptr : samples_.back(); }
 
-  /// The one of that very stamp, else the newest before it, else the first after it; null where there is none. A zero
+  /// The one with exactly this stamp, else the newest before it, else the first after it; null if there is none. A zero
   /// stamp means the newest.
   Ptr belonging_to(const ros::Time& time) const {
     if (samples_.empty()) return nullptr;
@@ -97,18 +96,18 @@ class Samples {
     samples_.erase(samples_.begin(), first);
   }
 
-  std::vector<Ptr> samples_;  // oldest first, stamps differ
+  std::vector<Ptr> samples_;  // oldest first, with different stamps
 };
 
-/// What has arrived since it was last asked for.
+/// Messages that have arrived since the last call.
 template <typename Message>
 struct Arrivals {
-  std::vector<boost::shared_ptr<const Message>> messages;  ///< in the order of arrival
-  std::uint64_t count = 0;                                 ///< of them, those included that were dropped
-  ros::Time last;                                          ///< ROS time of the last one's arrival
+  std::vector<boost::shared_ptr<const Message>> messages;  ///< in order of arrival
+  std::uint64_t count = 0;                                 ///< including dropped messages
+  ros::Time last;                                          ///< ROS time of the last arrival
 };
 
-/// Holds `most` messages: while nobody draws (a dialogue is open) the oldest are dropped. Safe from any thread.
+/// Holds `most` messages: while nothing is drawn (a dialog is open), the oldest are dropped. Thread-safe.
 template <typename Message>
 class Inbox {
  public:

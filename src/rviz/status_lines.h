@@ -1,4 +1,4 @@
-// A display's status, updated no more often than a person can read it.
+// The status of a display, updated slowly enough to be readable.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@ namespace trk_bridge::rviz_display {
 
 enum class StatusLevel { ok, warn, error };
 
-/// A new level is shown at once, a new text of the same level a few times a second: ages and counts would flicker.
-/// For one thread.
+/// A new level is shown at once, a new text with the same level only a few times a second, because ages and counts
+/// would flicker. For one thread.
 class StatusLines {
  public:
   using Show = std::function<void(StatusLevel, const std::string& name, const std::string& text)>;
@@ -19,10 +19,10 @@ class StatusLines {
 
   StatusLines(Show show, Remove remove) : show_(std::move(show)), remove_(std::move(remove)) {}
 
-  /// To be called repeatedly while the condition lasts. `now` is steady, in seconds.
+  /// Call repeatedly while the condition lasts. `now` is the steady clock, seconds.
   void set(StatusLevel level, const std::string& name, const std::string& text, double now);
   void remove(const std::string& name);
-  /// Somebody else has removed all of them.
+  /// Call when all lines were removed elsewhere.
   void forget() { lines_.clear(); }
 
  private:

@@ -65,7 +65,7 @@ std::string name_of_topic(const std::string& topic) {
 Age age_of(const ros::Time& stamp, const ros::Time& arrival, const ros::Time& now) {
   if (stamp.isZero()) {
     const double age = seconds_between(arrival, now);
-    return {age <= old_age, print("no stamp; %.2f s since it came", rounded(age))};
+    return {age <= old_age, print("no stamp; %.2f s since arrival", rounded(age))};
   }
   const double age = seconds_between(stamp, now);
   if (age < -old_age) return {false, print("%.2f s: the stamp is in the future", rounded(age))};

@@ -1,4 +1,4 @@
-// What is written beside a camera and about it.
+// Texts that are shown beside a camera.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace trk_bridge::rviz_display {
 
-/// What there is to say of a camera; what is not known, or not wanted, is left out.
+/// Values of a camera; unknown or unwanted values are none.
 struct Values {
   std::optional<camera::PanTiltRoll> pan_tilt_roll;  ///< degrees
   std::optional<double> image_distance;              ///< mm
-  std::optional<double> focal_length;                ///< pixels; shown where image_distance is not known
+  std::optional<double> focal_length;                ///< pixels; shown if image_distance is not known
   struct Angles {
     double horizontal = 0, vertical = 0;
   };
@@ -23,24 +23,24 @@ struct Values {
   std::optional<std::uint64_t> counter;
 };
 
-/// Two lines at most: the pose, and the lens with the counter. Empty when there is nothing to say.
+/// At most two lines: the pose, and the lens with the counter. Empty if there are no values.
 std::string text_of(const Values&);
 
-/// The namespace of a topic, "returned" of "/returned/camera_info"; the topic where it has none.
+/// The namespace of a topic: "returned" for "/returned/camera_info"; the topic if it has none.
 std::string name_of_topic(const std::string& topic);
 
-/// Beyond this a camera is not live any more, seconds.
+/// Seconds; an older camera is not live any more.
 inline constexpr double old_age = 1;
 
-/// How old the drawn sample is.
+/// The age of the drawn sample.
 struct Age {
-  bool fresh = true;  ///< neither older than old_age nor as far in the future
+  bool fresh = true;  ///< neither older than old_age nor so far in the future
   std::string text;
 };
-/// A zero stamp has no age but that of its arrival.
+/// With a zero stamp, the age is that of the arrival.
 Age age_of(const ros::Time& stamp, const ros::Time& arrival, const ros::Time& now);
 
-/// Of a topic that nothing comes of any more.
+/// The text for a topic without new messages.
 std::string silence_text(const std::string& topic, const ros::Time& last_arrival, const ros::Time& now);
 
 }  // namespace trk_bridge::rviz_display

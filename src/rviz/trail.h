@@ -1,4 +1,4 @@
-// Where a camera was in the last seconds.
+// The positions of a camera in the last seconds.
 #pragma once
 
 #include <optional>
@@ -10,23 +10,23 @@
 
 namespace trk_bridge::rviz_display {
 
-/// Positions by time, in a frame that the caller knows. Its length is bounded in seconds and in points; a camera at
-/// rest adds none. Nothing here throws but for want of memory.
+/// Positions by time, in a frame that the caller knows. The length is limited in seconds and in points; a camera at
+/// rest adds no points. Throws only if memory is exhausted.
 class Trail {
  public:
   struct Point {
     ros::Time time;
     Eigen::Vector3d position;  ///< m
   };
-  static constexpr double spacing = 0.002;  ///< m between points, except for the last, which is always the newest
+  static constexpr double spacing = 0.002;  ///< m between points, except the last one, which is always the newest
   static constexpr std::size_t most = 4000;
 
-  /// Points older than `length` seconds before `time` are forgotten. A time that is not after the last one's, or a
-  /// position that is not finite, adds nothing; `frame` is the one whose origin the trail follows: another one starts a
-  /// new trail.
+  /// Removes points older than `length` seconds before `time`. Adds nothing if the time is not after that of the last
+  /// point, or if the position is not finite. `frame` is the frame whose origin the trail follows: another frame starts
+  /// a new trail.
   void add(const ros::Time& time, const std::string& frame, const Eigen::Vector3d& position, double length);
 
-  /// Every point is asked for again: `position(frame, time)` gives it in another fixed frame, or nothing where it is
+  /// Computes all points again: `position(frame, time)` returns the position in another fixed frame, or none if it is
   /// not known any more.
   template <typename Position>
   void move(Position position) {
@@ -46,7 +46,7 @@ class Trail {
   std::vector<Point> points_;  // oldest first
 };
 
-/// Pairs of points, a line segment each.
+/// Pairs of points, one per line segment.
 std::vector<Eigen::Vector3d> lines_of(const Trail&);
 
 }  // namespace trk_bridge::rviz_display

@@ -9,8 +9,7 @@ namespace trk_bridge::tools {
 namespace {
 
 transport::Fault unknown_protocol() noexcept {
-  return {"unknown protocol", [](const transport::Fault&) { return std::string("no protocol that is known here"); }, 0,
-          -1};
+  return {"unknown protocol", [](const transport::Fault&) { return std::string("unknown protocol"); }, 0, -1};
 }
 
 }  // namespace
@@ -31,7 +30,7 @@ void AnyDecoder::begin(std::string_view datagram, const transport::Sender& sende
   fault_ = unknown_protocol();
   for (const Reading& reading : readings_) {
     if (!reading.scheme->detection->claims(datagram)) continue;
-    // All of them see every datagram, and to its end: they may put segments together.
+    // All decoders process every datagram completely, because they may reassemble segments.
     reading.way.decoder->begin(datagram, sender);
     transport::Sample sample;
     transport::Fault fault;
@@ -50,7 +49,7 @@ void AnyDecoder::begin(std::string_view datagram, const transport::Sender& sende
 
 transport::Decoder::Next AnyDecoder::next(transport::Sample& into, transport::Fault& fault) noexcept {
   if (std::exchange(is_first_, false)) {
-    // Sender and arrival are not the decoder's to say.
+    // The decoder does not know sender and arrival.
     sample_.sender = into.sender;
     sample_.arrival = into.arrival;
     into = sample_;

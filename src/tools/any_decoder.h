@@ -1,4 +1,4 @@
-// Datagrams of any protocol to samples, for finding out who sends what.
+// Decodes datagrams of any protocol, for `trk detect`.
 #pragma once
 
 #include <string_view>
@@ -8,11 +8,10 @@
 
 namespace trk_bridge::tools {
 
-/// Tries every way to read a datagram that the schemes offer, and takes the first that finds no fault. Not
-/// synchronised.
+/// Tries all readings of a datagram that the schemes offer, and uses the first without a fault. Not synchronised.
 class AnyDecoder final : public transport::Decoder {
  public:
-  /// A way to read a protocol.
+  /// A way to decode a protocol.
   struct Reading {
     const transport::Scheme* scheme;
     transport::Detection::Reading way;
@@ -23,11 +22,11 @@ class AnyDecoder final : public transport::Decoder {
   void begin(std::string_view datagram, const transport::Sender&) noexcept override;
   Next next(transport::Sample& into, transport::Fault& fault) noexcept override;
 
-  /// All of them, in an order that stays.
+  /// All readings, in a fixed order.
   const std::vector<Reading>& readings() const noexcept { return readings_; }
-  /// Of the datagram of the last begin(): the way it is read; null: none.
+  /// The reading of the datagram of the last begin(); null: none.
   const Reading* chosen() const noexcept { return chosen_; }
-  /// The protocol that it claims to be of; null: none.
+  /// The protocol that the datagram seems to have; null: none.
   const transport::Scheme* claimed_by() const noexcept { return claimed_by_; }
   std::string_view datagram() const noexcept { return datagram_; }
 
@@ -36,7 +35,7 @@ class AnyDecoder final : public transport::Decoder {
   std::string_view datagram_;
   const Reading* chosen_ = nullptr;
   const transport::Scheme* claimed_by_ = nullptr;
-  // What the first next() gives: begin() has to ask for it, to choose.
+  // The result of the first next(), which begin() needs to choose a reading.
   bool is_first_ = false;
   Next first_ = Next::none;
   transport::Sample sample_;

@@ -26,14 +26,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The kernel keeps what comes meanwhile.
+// The kernel queues what arrives meanwhile.
 constexpr std::chrono::milliseconds pause{20};
-// Senders of what is no sound record, of one place; a port scan could produce any number.
+// Senders of malformed datagrams per place; limited, because a port scan could produce any number.
 constexpr std::size_t most_faulty = 16;
 constexpr std::size_t shown_bytes = 16;
 
-/// What came by one way to read.
-struct Came {
+/// Records of one reading.
+struct Received {
   monitor::Model model{Clock::now()};
   std::map<cli::Tally::Key, Motion, cli::Tally::Less> motions{};
 };
@@ -63,7 +63,7 @@ class Listening {
 
   const transport::Source& source() const { return *source_; }
 
-  /// Takes what has come so far.
+  /// Processes everything that has arrived so far.
   void take() {
     transport::Reception reception;
     for (;;) {
@@ -80,13 +80,13 @@ class Listening {
     }
   }
 
-  /// Every camera that was found.
+  /// All cameras that were found.
   std::vector<Detected> cameras() {
     std::vector<Detected> found;
     for (const auto& reading : decoder_->readings()) {
-      const auto came = came_.find(&reading);
-      if (came == came_.end()) continue;
-      const auto state = came->second.model.state(Clock::now(), *source_);
+      const auto received = received_.find(&reading);
+      if (received == received_.end()) continue;
+      const auto state = received->second.model.state(Clock::now(), *source_);
       for (const auto& camera : state.cameras) {
         if (camera.latest) add(detected(reading, camera, state), reading, found);
       }
@@ -101,7 +101,7 @@ class Listening {
     return found;
   }
 
-  /// What came that is no sound record, a line a sender.
+  /// Malformed datagrams, one line per sender.
   std::vector<std::string> faulty() const {
     std::vector<std::string> lines;
     for (const auto& [sender, what] : faulty_) {
@@ -114,15 +114,15 @@ class Listening {
  private:
   struct Faulty {
     std::uint64_t count = 0;
-    std::string text;  // of the last one
+    std::string text;  // of the last datagram
   };
 
   void add(const transport::Sample& sample) {
-    Came& came = came_[decoder_->chosen()];
-    came.model.add(sample, Clock::now());
+    Received& received = received_[decoder_->chosen()];
+    received.model.add(sample, Clock::now());
     const auto* params = std::get_if<wire::CameraParams>(&sample.record);
     if (params == nullptr) return;
-    if (const auto pose = camera::decode_pose(*params)) came.motions[{params->id, sample.sender}].add(*pose);
+    if (const auto pose = camera::decode_pose(*params)) received.motions[{params->id, sample.sender}].add(*pose);
   }
 
   void add_faulty(const transport::Reception& reception) {
@@ -146,18 +146,18 @@ class Listening {
     one.source = url(reading);
     one.camera = camera;
     if (!camera.constants) {
-      // Constants without an id are for all cameras of their sender.
+      // Constants without an id are valid for all cameras of their sender.
       for (const auto& other : state.cameras) {
         if (other.key.id == 0 && other.key.sender == camera.key.sender) one.camera.constants = other.constants;
       }
     }
-    const auto& motions = came_.at(&reading).motions;
+    const auto& motions = received_.at(&reading).motions;
     if (const auto motion = motions.find(camera.key); motion != motions.end()) one.motion = motion->second;
     return one;
   }
 
-  /// Where a stricter way reads some of its records, the way that reads more of them is taken. The other way is worth a
-  /// word only if it reads what the stricter one, which was taken, does not.
+  /// If several readings accept records of the camera, the one that accepts most is used. The other one is mentioned
+  /// only if it accepts records that the stricter one refuses.
   static void add(Detected one, const AnyDecoder::Reading& reading, std::vector<Detected>& found) {
     const auto& key = one.camera.key;
     const auto stricter = std::find_if(found.begin(), found.end(), [&](const Detected& other) {
@@ -179,33 +179,32 @@ class Listening {
   }
 
   const DetectPlace place_;
-  AnyDecoder* decoder_ = nullptr;  // the source has it
+  AnyDecoder* decoder_ = nullptr;  // owned by the source
   std::unique_ptr<transport::Source> source_;
-  std::map<const AnyDecoder::Reading*, Came> came_;
+  std::map<const AnyDecoder::Reading*, Received> received_;
   std::map<std::string, Faulty> faulty_;  // by sender
 };
 
-/// Every socket needs some descriptors, and a protocol may have hundreds of groups.
+/// Every socket needs several descriptors, and a protocol may have hundreds of groups.
 void allow_many_descriptors() noexcept {
   rlimit limit{};
   if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
   limit.rlim_cur = limit.rlim_max;
-  // Where it is refused, the sockets beyond the limit say so.
+  // If this fails, the sockets beyond the limit report an error.
   (void)::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-void say_what_to_check(bool chosen_places, std::ostream& err) {
+void print_checks(bool chosen_places, std::ostream& err) {
   err << "trk: nothing was found. To check:\n"
-         "trk:  - the tracker: is its output switched on, and does it send to an address of this machine (ip -br "
-         "address)?\n"
-         "trk:  - the port: which one is it set to? "
-      << (chosen_places ? "Only the places above were listened to" : "trk detect PORT listens to any other")
+         "trk:  - the tracker: is its output on, and does it send to an address of this machine (ip -br address)?\n"
+         "trk:  - the port: which port does the tracker use? "
+      << (chosen_places ? "Only the ports above were tested" : "trk detect PORT tests any other port")
       << "\n"
-         "trk:  - the network: sudo tcpdump -ni any udp shows what arrives; what it shows and trk does not see, a "
-         "firewall drops\n"
-         "trk:  - multicast: switches pass a group on where something asks for it (IGMP); the sender's TTL must reach "
-         "here\n"
-         "trk:  - other programs: a port that is in use is read by the program that has it (ss -lunp)\n";
+         "trk:  - the network: sudo tcpdump -ni any udp shows what arrives; if trk does not receive it, a firewall "
+         "drops it\n"
+         "trk:  - multicast: switches forward a group only to receivers that join it (IGMP); the TTL of the sender "
+         "must be large enough\n"
+         "trk:  - other programs: if another program uses the port, it receives the datagrams (ss -lunp)\n";
 }
 
 }  // namespace
@@ -221,11 +220,11 @@ cli::ExitCode detect(const DetectOptions& options, std::ostream& out, std::ostre
       all.push_back(std::make_unique<Listening>(place));
       ports.insert(place.port);
     } catch (const transport::TransportError& error) {
-      err << "trk: not heard: " << error.what() << '\n';
+      err << "trk: cannot listen: " << error.what() << '\n';
     }
   }
   if (all.empty()) {
-    err << "trk: error: none of the places can be listened to\n";
+    err << "trk: error: cannot listen to any of the ports\n";
     return cli::exit_failed;
   }
   err << "trk: listening for " << options.seconds << " s to port";
@@ -257,7 +256,7 @@ cli::ExitCode detect(const DetectOptions& options, std::ostream& out, std::ostre
       err << "trk: " << statistics.error << '\n';
     }
   }
-  if (is_empty) say_what_to_check(!options.places.empty(), err);
+  if (is_empty) print_checks(!options.places.empty(), err);
   const cli::ExitCode written = lines.finish(err);
   return is_empty ? cli::exit_failed : written;
 }

@@ -1,4 +1,4 @@
-// `trk detect`: who sends what to this machine, in which protocol, and how to read it.
+// `trk detect`: finds what is sent to this machine, by whom, in which protocol, and how to receive it.
 #pragma once
 
 #include <iosfwd>
@@ -16,8 +16,8 @@ struct DetectOptions {
   bool json = false;  ///< a JSON object for each camera
 };
 
-/// Listens, and writes what was found to `out`, and how it goes to `err`. exit_failed where there is nothing. Throws
-/// CLI::ValidationError for a place that is none.
+/// Listens, and writes results to `out` and messages to `err`. exit_failed if nothing was found. Throws
+/// CLI::ValidationError for an invalid place.
 cli::ExitCode detect(const DetectOptions&, std::ostream& out, std::ostream& err);
 
 }  // namespace trk_bridge::tools

@@ -26,7 +26,7 @@ DetectPlace place_from(const std::string& text) {
   const auto place = transport::set_place(url, settings);
   if (!place || settings.port == 0) {
     throw CLI::ValidationError("PORT = \"" + text +
-                               "\": allowed are 1 to 65535, and a group before it as in 239.135.1.1:55555");
+                               "\": must be 1 to 65535, or a group with a port, such as 239.135.1.1:55555");
   }
   return {settings.port, settings.host};
 }
@@ -58,8 +58,8 @@ std::vector<std::string> own_addresses() {
   return all;
 }
 
-/// A port together with the groups that usually come to it. The kernel does not let a group be received beside a socket
-/// of every address: where there are groups, each address of this machine has a socket.
+/// Adds a port with its usual groups. A socket that is bound to all addresses would keep the kernel from delivering a
+/// group to another socket: so, if there are groups, each address of this machine gets a socket.
 void add_with_groups(std::uint16_t port, const std::vector<transport::UsualPlace>& usual,
                      std::set<DetectPlace>& places) {
   bool has_groups = false;
@@ -97,7 +97,7 @@ std::vector<std::string> usual_place_lines() {
   std::vector<std::string> lines;
   for (const auto* scheme : endpoints::schemes()) {
     if (scheme->detection == nullptr) continue;
-    // Groups that are numbered are a line: the first and the last.
+    // Numbered groups are shown in one line: the first and the last.
     std::map<std::string_view, std::vector<transport::UsualPlace>> by_senders;
     std::vector<std::string_view> order;
     for (auto& place : scheme->detection->places()) {

@@ -1,4 +1,4 @@
-// Where `trk detect` listens.
+// The ports and groups to which `trk detect` listens.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace trk_bridge::tools {
 
-/// One socket's.
+/// The place of one socket.
 struct DetectPlace {
   std::uint16_t port = 0;
   std::string host;           ///< a group or an address of this machine; empty: every address
@@ -19,11 +19,11 @@ inline bool operator<(const DetectPlace& a, const DetectPlace& b) {
   return std::tie(a.port, a.host) < std::tie(b.port, b.host);
 }
 
-/// Of "7000" or "239.135.1.3:55555"; without any, the usual places of every protocol. A port comes with the groups that
-/// usually use it. Throws CLI::ValidationError for a text that is no place, and TransportError.
+/// The places for "7000" or "239.135.1.3:55555"; without any, the usual places of every protocol. A port includes the
+/// groups that usually use it. Throws CLI::ValidationError for an invalid text, and TransportError.
 std::set<DetectPlace> places_of(const std::vector<std::string>& chosen);
 
-/// The usual places for a person: port, protocol, whose default it is, groups.
+/// The usual places for people: port, protocol, the senders with this default, groups.
 std::vector<std::string> usual_place_lines();
 
 }  // namespace trk_bridge::tools

@@ -17,12 +17,12 @@ namespace {
 
 using monitor::fixed;
 
-// What one expects of a camera in a studio.
+// Plausible values of a camera in a studio.
 constexpr double farthest = 200;               // m from the origin
 constexpr double lowest = -0.5, highest = 30;  // m above the floor
 constexpr double most_roll = 30, most_tilt = 60;
 constexpr double narrowest = 0.3, widest = 140;  // degrees
-// What is less is noise of a camera at rest.
+// Smaller motion is noise of a camera at rest.
 constexpr double least_way = 0.02, least_turn = 0.2;  // m, degrees
 
 constexpr double full_turn = 360;
@@ -32,7 +32,7 @@ void extend(Motion::Range& range, double value) {
   range.most = std::max(range.most, value);
 }
 
-/// The angle nearest to `last` among those that are the same turn.
+/// The equivalent angle nearest to `last`.
 double unwrapped(double angle, double last) { return last + std::remainder(angle - last, full_turn); }
 
 std::string text_of(const Motion::Range& range, int decimals) {
@@ -41,7 +41,7 @@ std::string text_of(const Motion::Range& range, int decimals) {
 }
 
 bool is_all(const Motion::Range& range, double value) { return range.least == value && range.most == value; }
-/// Beyond the limit all the time, to one side.
+/// Always beyond the limit, on one side.
 bool stays_beyond(const Motion::Range& range, double limit) { return range.least > limit || range.most < -limit; }
 double farther_end(const Motion::Range& range) { return std::max(std::abs(range.least), std::abs(range.most)); }
 
@@ -49,7 +49,7 @@ const wire::CameraConstants* constants_of(const Detected& found) {
   return found.camera.constants ? &*found.camera.constants : nullptr;
 }
 
-/// Degrees, horizontal, over the whole chip; none without constants or without a lens.
+/// Degrees, horizontal, over the full chip; none without constants or without a lens.
 std::optional<double> angle_of_view(const Detected& found) {
   const auto* constants = constants_of(found);
   if (constants == nullptr || !found.camera.latest->lens) return std::nullopt;
@@ -99,18 +99,18 @@ void add_position_doubts(const Motion& motion, std::vector<std::string>& doubts)
     doubts.push_back("the camera is " + fixed(far, 0) + " m from the origin: the numbers may be millimetres");
   } else if (motion.z.least < lowest || motion.z.most > highest) {
     doubts.push_back("the height is " + text_of(motion.z, 2) +
-                     " m: the sender may have y or another axis for the height, or the other sign");
+                     " m: the sender may use y or another axis for the height, or the opposite sign");
   }
 }
 
 void add_turn_doubts(const Motion& motion, std::vector<std::string>& doubts) {
   if (stays_beyond(motion.roll, most_roll)) {
     doubts.push_back("the camera is rolled by " + text_of(motion.roll, 1) +
-                     " degrees all the time: its axes may be others than the format says");
+                     " degrees all the time: its axes may differ from those of the format");
   }
   if (stays_beyond(motion.tilt, most_tilt)) {
     doubts.push_back("the camera is tilted by " + text_of(motion.tilt, 1) +
-                     " degrees all the time: its axes may be others than the format says");
+                     " degrees all the time: its axes may differ from those of the format");
   }
 }
 
@@ -143,13 +143,13 @@ std::vector<std::string> doubts_of(const Detected& found) {
   }
   if (*latest.doubt != '\0') doubts.emplace_back(latest.doubt);
   if (!found.other_options.empty()) {
-    doubts.push_back("this sender also sends records that only " + found.other_options + " takes");
+    doubts.push_back("this sender also sends records that only " + found.other_options + " accepts");
   }
   if (found.camera.counts.lost > 0) {
-    doubts.push_back(std::to_string(found.camera.counts.lost) + " records were lost on the way");
+    doubts.push_back(std::to_string(found.camera.counts.lost) + " records were lost");
   }
   if (found.is_shared) {
-    doubts.emplace_back("another sender sends the same id to this place: allow=ADDRESS takes one of them");
+    doubts.emplace_back("another sender sends the same id to this port: allow=ADDRESS selects one of them");
   }
   return doubts;
 }
@@ -181,8 +181,8 @@ std::vector<std::string> lines_of(const Detected& found) {
   if (doubts.empty()) lines.emplace_back("  axes      plausible");
   lines.emplace_back(
       has_moved(motion)
-          ? "  signs     right where pan to the left, tilt up and roll clockwise made their numbers rise"
-          : "  signs     nothing moved: pan to the left and tilt up meanwhile, and the numbers must rise");
+          ? "  signs     right if pan to the left, tilt up and roll clockwise increased their numbers"
+          : "  signs     nothing moved: repeat this while you pan to the left and tilt up; the numbers must increase");
   if (latest.lens && constants_of(found) == nullptr) {
     lines.emplace_back("  missing   constants: CameraInfo needs them as the node's parameter constants");
   }

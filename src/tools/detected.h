@@ -1,4 +1,4 @@
-// A sender that `trk detect` has found: who it is, whether its numbers are plausible, and how to use it.
+// A camera that `trk detect` has found: its sender, whether its values are plausible, and how to use it.
 #pragma once
 
 #include <limits>
@@ -11,7 +11,7 @@
 
 namespace trk_bridge::tools {
 
-/// How far a camera moved.
+/// The range of a camera's motion.
 class Motion {
  public:
   struct Range {
@@ -25,7 +25,7 @@ class Motion {
   void add(const Eigen::Isometry3d& pose);
 
   Range x, y, z;          ///< m
-  Range pan, tilt, roll;  ///< degrees; pan and roll go on beyond 180
+  Range pan, tilt, roll;  ///< degrees; pan and roll continue beyond 180
 
  private:
   double last_pan_ = 0, last_roll_ = 0;
@@ -35,21 +35,21 @@ class Motion {
 struct Detected {
   std::string protocol;         ///< "Free-D"
   std::string place;            ///< where it arrived: "udp port 7000 on every interface"
-  std::string source;           ///< the URL that reads it
+  std::string source;           ///< the URL of a source that receives it
   bool needs_id = false;        ///< others arrive at the same place
   bool is_shared = false;       ///< another sender has the same id there
-  std::string other_options;    ///< of a URL that takes records which `source` refuses; empty: there are none
+  std::string other_options;    ///< options of a URL that accepts records which `source` refuses; empty: none
   monitor::CameraState camera;  ///< with `latest`
   Motion motion;
 };
 
-/// What is not as one expects of a camera in a studio, a sentence each; empty where all is plausible.
+/// What is not plausible for a camera in a studio, one sentence each; empty if everything is plausible.
 std::vector<std::string> doubts_of(const Detected&);
 
 /// The command that publishes the camera in ROS.
 std::string launch_line(const Detected&);
 
-/// For a person.
+/// Text for people.
 std::vector<std::string> lines_of(const Detected&);
 /// A JSON object.
 std::string json_of(const Detected&);

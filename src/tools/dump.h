@@ -1,4 +1,4 @@
-// `trk dump`: a record a line.
+// `trk dump`: prints one record per line.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace trk_bridge::tools {
 
 struct DumpOptions {
   bool json = false;
-  std::optional<std::uint64_t> count;  ///< of records printed
-  std::optional<double> seconds;       ///< of wall time
-  bool flush_each = true;              ///< so that a pipe is live
+  std::optional<std::uint64_t> count;  ///< number of records to print
+  std::optional<double> seconds;       ///< wall time
+  bool flush_each = true;              ///< so that readers of a pipe get records at once
 };
 
-/// Prints records to `out`; malformed ones, with reason and sender, and at the end the summary to `err`. That the
-/// reader of `out` closed the pipe is an ordinary end. exit_nothing when there is a limit and nothing was received.
+/// Prints records to `out`; malformed ones, with reason and sender, and at the end the summary to `err`. A pipe that
+/// the reader of `out` closed is not an error.
 cli::ExitCode dump(transport::Source&, const DumpOptions&, std::ostream& out, std::ostream& err);
 
 }  // namespace trk_bridge::tools

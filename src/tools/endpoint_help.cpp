@@ -20,11 +20,10 @@ cli::HelpSection section(std::string title, const Options& options) {
 }  // namespace
 
 std::vector<cli::HelpSection> endpoint_help() {
-  cli::HelpSection urls{
-      "Endpoints",
-      "An endpoint is a URL, with options after a question mark: URL?KEY=VALUE&KEY=VALUE. %XX in paths "
-      "and values stands for the byte XX (hexadecimal). In a shell, put it in single quotes.",
-      {}};
+  cli::HelpSection urls{"Endpoints",
+                        "An endpoint is a URL, with options after a question mark: URL?KEY=VALUE&KEY=VALUE. %XX in "
+                        "paths and values is the byte XX (hexadecimal). In a shell, put the URL in single quotes.",
+                        {}};
   std::vector<cli::HelpSection> all;
   for (const auto* scheme : endpoints::schemes()) {
     urls.entries.push_back({std::string(scheme->usage), std::string(scheme->summary)});

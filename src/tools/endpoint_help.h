@@ -1,4 +1,4 @@
-// Endpoints as help texts, manual page and completion name them, from the table of schemes.
+// The text about endpoints for help, manual page and completion, from the table of schemes.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace trk_bridge::tools {
 
-/// How URLs look; the options of every scheme in each direction, and those of every sink.
+/// The syntax of URLs, the options of every scheme in each direction, and those of every sink.
 std::vector<cli::HelpSection> endpoint_help();
 
-/// How URLs begin: "udp://", …
+/// The beginnings of URLs: "udp://", …
 std::vector<std::string> endpoint_prefixes();
 
 }  // namespace trk_bridge::tools

@@ -30,11 +30,11 @@ bool is_failure(const Cause& cause) {
   return true;
 }
 
-/// What is reported of the first loss for this cause.
+/// The report of the first loss with this cause.
 std::string first_report(const bridge::Loss& loss, const transport::SinkForm& form) {
   const auto* fault = std::get_if<SinkFault>(&loss.cause);
   if (fault != nullptr && fault->reason == SinkReason::no_constants) {
-    return why(loss.cause) + "; they are left out until constants come";
+    return why(loss.cause) + "; they are not written until constants arrive";
   }
   std::string once = why(loss.cause) + " (reported once)";
   if (!std::holds_alternative<CameraReason>(loss.cause)) return once;
@@ -53,8 +53,7 @@ void FanOut::add(const transport::SinkEndpoint& endpoint, const transport::SinkF
   if (may_wait_ && transport::with_defaults(endpoint.form, defaults).is_timed()) {
     throw transport::TransportError(
         "endpoint \"" + endpoint.url +
-        "\": a take that is read as fast as possible cannot be delayed: delay and lead need "
-        "a source with a pace of its own");
+        "\": a take that is read as fast as possible cannot be delayed: delay and lead need a live source");
   }
   outlets_.push_back(std::make_unique<bridge::Outlet>(endpoint, options));
 }
@@ -100,9 +99,9 @@ void FanOut::close() {
     if (closed) continue;
     const auto lost = outlet->unwritten();
     report("error: " + outlet->name() + ": " +
-           (closed.error().reason == SinkReason::no_constants ? "no constants came, so nothing was kept"
+           (closed.error().reason == SinkReason::no_constants ? "no constants were received, so nothing was written"
                                                               : transport::describe(closed.error())) +
-           (lost > 0 ? "; " + std::to_string(lost) + " records that waited are lost" : ""));
+           (lost > 0 ? "; " + std::to_string(lost) + " queued records are lost" : ""));
     const std::lock_guard<std::mutex> lock(mutex_);
     is_good_ = false;
   }

@@ -1,4 +1,4 @@
-// Several sinks as one: what one of them refuses does not keep the others from it, and none waits for another.
+// Writes to several sinks. A sink that refuses records or is slow does not affect the others.
 #pragma once
 
 #include <cstdint>
@@ -17,32 +17,31 @@
 
 namespace trk_bridge::tools {
 
-/// Reports each cause of a loss once, in the thread that met it, and counts. Its functions are for one thread at a
-/// time.
+/// Reports each cause of a loss once, in the thread where it happens, and counts it. The functions are for one thread
+/// at a time.
 class FanOut {
  public:
   /// `may_wait`: see OutletOptions.
   explicit FanOut(std::ostream& err, std::function<bool()> may_wait = {}) : err_(err), may_wait_(std::move(may_wait)) {}
 
-  /// Opens one more. `defaults` count for what the endpoint does not say. Throws TransportError; a sink with a delay or
-  /// a lead needs a source that is live, and is refused where it may wait.
+  /// Opens a sink. `defaults` are used for options that the endpoint does not set. Throws TransportError; also for a
+  /// sink with a delay or a lead if the source is not live (may_wait).
   void add(const transport::SinkEndpoint&, const transport::SinkForm& defaults);
 
-  /// Sinks are added before.
+  /// Call after all sinks are added.
   void write(const wire::CameraParams&, const transport::RecordTime& time = {});
   void write(const wire::CameraConstants&);
-  /// Writes what is queued or delayed and closes all, at the same time.
+  /// Writes what is queued or delayed, and closes all sinks at the same time.
   void close();
 
-  /// A line on `err`, whole whatever other threads report. Any thread.
+  /// Prints a line on `err` that is not mixed with those of other threads. Any thread.
   void report(const std::string& line);
-  /// Once it is closed, whether every sink took everything. That a file left out what came before its constants, that a
-  /// FIFO left out what came before its reader, and that shared memory left out sets that newer ones replaced is
-  /// reported and counted, but is no failure.
+  /// After close(): whether every sink accepted everything. Records before the constants of a file, before the reader
+  /// of a FIFO, and sets in shared memory that newer ones replaced are reported and counted, but are not a failure.
   bool is_good() const noexcept { return is_good_; }
-  /// Once it is closed: what was sent, a line a sink, and how often each cause came.
+  /// After close(): prints what was sent, one line per sink, and how often each cause occurred.
   void summarise() const;
-  /// Once it is closed, for what else is to be written there.
+  /// For further output after close().
   std::ostream& err() const noexcept { return err_; }
 
   const std::vector<std::unique_ptr<bridge::Outlet>>& outlets() const noexcept { return outlets_; }
@@ -55,11 +54,11 @@ class FanOut {
 
   std::ostream& err_;
   const std::function<bool()> may_wait_;
-  std::mutex mutex_;  // of err_, causes_ and is_good_ until it is closed
+  std::mutex mutex_;  // protects err_, causes_ and is_good_ until close()
   std::map<Cause, std::uint64_t> causes_;
   bool is_good_ = true;
   std::vector<std::unique_ptr<bridge::Outlet>> outlets_;
-  std::optional<bridge::Departures> departures_;  // once something is written
+  std::optional<bridge::Departures> departures_;  // created with the first record
 };
 
 }  // namespace trk_bridge::tools

@@ -32,18 +32,18 @@ struct Range {
   std::string text(const char* unit) const {
     return text_of(least) + (least < most ? " to " + text_of(most) : "") + " " + unit;
   }
-  /// Somewhat wider, and not empty.
+  /// A little wider, and not empty.
   std::pair<double, double> for_axis() const {
     const double margin = std::max({0.05 * (most - least), 1e-3 * std::abs(most), 1e-9});
     return {least - margin, most + margin};
   }
 };
 
-/// What is drawn and told of a lens.
+/// A value of a lens that is plotted and printed.
 using Value = std::function<double(const camera::Lens&)>;
 
-/// How far distortion moves a point, in percent of its distance from the optical axis, at half of the chip's width;
-/// where the chip is not known, at 1 mm.
+/// The radius at which distortion is given, in percent of the radius: half of the chip's width, or 1 mm if the chip is
+/// not known.
 double radius_of(const lens::Table& table) { return table.constants() ? table.constants()->chip_width / 2 : 1; }
 
 Value distortion_at(double radius) {
@@ -63,13 +63,13 @@ Range range_over(const lens::Table& table, const Value& value) {
   return range;
 }
 
-/// Whether the lens depends on focus as well.
+/// Whether the table depends on focus as well.
 bool breathes(const lens::Table& table) {
   const auto& points = table.points().points;
   return points.front().at.focus != points.back().at.focus;
 }
 
-/// A curve over zoom at one focus, and the points that it goes through.
+/// A curve over zoom at one focus, and the points of the table on it.
 void add_curve(const lens::Table& table, double focus, const Value& value, const std::string& colour,
                const std::string& name, std::vector<plot::Curve>& curves) {
   plot::Curve curve{{}, "stroke='" + colour + "' stroke-width='2'", name};
@@ -85,7 +85,7 @@ void add_curve(const lens::Table& table, double focus, const Value& value, const
   curves.push_back(std::move(dots));
 }
 
-/// `values` with the name of each, and the colours at the first and at the last focus.
+/// Plots `values` with their names, in different colours for the first and the last focus.
 plot::Panel panel_over_zoom(const lens::Table& table, const std::string& y_name,
                             const std::vector<std::pair<std::string, Value>>& values) {
   constexpr std::array<std::pair<const char*, const char*>, 2> colours{
@@ -147,7 +147,7 @@ std::vector<std::string> lines_of(const lens::Table& table) {
     lines.emplace_back("focus: distances are not known");
   }
   if (!table.constants()) {
-    lines.emplace_back("constants: none; takes need them, and nodes need them as a parameter");
+    lines.emplace_back("constants: none; takes need them, and nodes need them as parameter");
   }
   return lines;
 }

@@ -1,4 +1,4 @@
-// `trk lens`: what a lens table says, and its curves.
+// `trk lens`: describes and plots a lens table.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace trk_bridge::tools {
 
-/// A line each: ranges of encoders, focal length, angle of view, shift and distortion, focus; what is not known.
+/// Lines with the ranges of encoders, focal length, angle of view, shift, distortion and focus, and what is not known.
 std::vector<std::string> lines_of(const lens::Table&);
 
-/// An SVG: focal length, centre shift and distortion over zoom, for the first and the last focus where that matters;
-/// the focus distance over focus where it is known.
+/// An SVG: focal length, centre shift and distortion over zoom, for the first and the last focus if they differ; the
+/// focus distance over focus if it is known.
 std::string to_svg(const lens::Table&, const std::string& title);
 
 }  // namespace trk_bridge::tools

@@ -11,7 +11,7 @@ namespace trk_bridge::tools {
 
 namespace {
 
-/// As behind a URL's place.
+/// Formatted as in a URL.
 std::string options_text(const endpoints::Preset& preset) {
   std::string text;
   for (const auto& option : preset.options) text += (text.empty() ? "?" : "&") + option.key + "=" + option.value;

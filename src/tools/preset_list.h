@@ -1,4 +1,4 @@
-// `trk presets`: the receivers that are known by name.
+// `trk presets`: lists the known receivers.
 #pragma once
 
 #include <iosfwd>
@@ -8,9 +8,9 @@
 
 namespace trk_bridge::tools {
 
-/// For a person: name, format words and what to know of the receiver.
+/// For people: name, format words and quirks of the receiver.
 void list_presets(const std::vector<endpoints::Preset>&, std::ostream& out);
-/// A JSON object a line: name, format, format_words, sends_id, scheme, options, quirks.
+/// One JSON object per line: name, format, format_words, sends_id, scheme, options, quirks.
 void list_presets_as_json(const std::vector<endpoints::Preset>&, std::ostream& out);
 
 }  // namespace trk_bridge::tools

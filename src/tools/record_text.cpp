@@ -16,7 +16,7 @@
 namespace trk_bridge::tools {
 namespace {
 
-/// Calls `put` with name and count of each that is told.
+/// Calls `put` with name and count of each known encoder.
 template <typename Put>
 void for_each_encoder(Put&& put, const transport::LensEncoders& encoders) {
   if (encoders.zoom) put("zoom_encoder", *encoders.zoom);
@@ -100,7 +100,7 @@ class JsonRecord {
     if (!std::isfinite(content)) {
       writer_.Null();
     } else if (content == 0 && std::signbit(content)) {
-      // Readers understand -0 as an integer and lose its sign.
+      // Readers parse -0 as an integer and lose its sign.
       raw("-0.0");
     } else {
       raw(cli::number_text(content));
@@ -114,13 +114,13 @@ class JsonRecord {
   rapidjson::Writer<rapidjson::StringBuffer> writer_;
 };
 
-/// The words that a plain line has before the number of a field, and whether the unit follows it.
+/// The text before the number of a field in a plain line, and whether its unit follows.
 struct Wording {
   std::string_view field, before;
   bool unit_follows;
 };
 
-/// Of the fields that do not have their name before and their unit behind.
+/// Fields that are not printed as name, number, unit.
 constexpr Wording wordings[] = {{"x", "", false},
                                 {"y", "", false},
                                 {"z", "", true},

@@ -10,9 +10,9 @@
 
 namespace trk_bridge::tools {
 
-/// One JSON object a record. Doubles are the shortest text that reads back to the same double; `arrival` is seconds
-/// since 1970 UTC with nine decimals, which is exact where a double would not be; what is not finite is null. The view
-/// holds until the next call.
+/// One JSON object per record. Doubles are the shortest text that gives the same double; `arrival` is seconds since
+/// 1970 UTC with nine decimals, which is more exact than a double; values that are not finite are null. The view is
+/// valid until the next call.
 class JsonLine {
  public:
   std::string_view of(const transport::Sample&);
@@ -21,7 +21,7 @@ class JsonLine {
   rapidjson::StringBuffer buffer_;
 };
 
-/// The same for a person: time, sender, id, counter, format words, and every number with its unit.
+/// The same for people: time, sender, id, counter, format words, and every number with its unit.
 std::string plain_line(const transport::Sample&);
 
 }  // namespace trk_bridge::tools

@@ -47,11 +47,10 @@ class Relay final : public cli::Listener {
   }
 
  private:
-  /// A record of trk with a lens that nobody knows would be an invention.
+  /// Parameters without a lens are not passed on, because trk records need one.
   void note_without_lens(const transport::Sample& sample) {
     if (without_lens_++ != 0) return;
-    const std::string why =
-        *sample.doubt != '\0' ? sample.doubt : "a lens table of the source (lens=FILE) would give one";
+    const std::string why = *sample.doubt != '\0' ? sample.doubt : "set a lens table of the source (lens=FILE)";
     sinks_.report("parameters from " + transport::to_string(sample.sender) + " cannot be passed on: " +
                   camera::describe(camera::CameraReason::no_lens) + ": " + why + " (reported once)");
   }

@@ -1,4 +1,4 @@
-// `trk relay`: from any endpoint to any others.
+// `trk relay`: passes records from any endpoint to any others.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace trk_bridge::tools {
 
-/// Until the source ends, fails or is stopped, or `seconds` (wall time) have passed; then closes the sinks. Causes of
-/// trouble are reported once, where the sinks report theirs, and counted; the summary comes at the end. exit_failed
-/// when anything was refused, exit_nothing when nothing was received within `seconds`.
+/// Runs until the source ends, fails or is stopped, or for `seconds` (wall time); then closes the sinks. Problems are
+/// reported once, where the sinks report theirs, and counted; the summary is printed at the end. exit_failed if
+/// anything was refused.
 cli::ExitCode relay(transport::Source&, FanOut& sinks, std::optional<double> seconds = std::nullopt);
 
 }  // namespace trk_bridge::tools

@@ -1,4 +1,4 @@
-// trk: one tool over endpoints.
+// trk: one tool for all endpoints.
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -47,14 +47,14 @@ bool is_regular_file(int fd) {
 
 void add_source(CLI::App& command, std::string& url) {
   command.footer(cli::endpoints_help());
-  command.add_option("SOURCE", url, "Where records come from")->required();
+  command.add_option("SOURCE", url, "The source of records")->required();
 }
 
 void add_seconds(CLI::App& command, std::optional<double>& seconds) {
   command.add_option("--seconds", seconds, "End after S seconds")->check(cli::positive_number())->type_name("S");
 }
 
-/// With the source of that URL open, named on standard error, and stopped by signals.
+/// Opens the source, prints its name on standard error, and runs until a signal stops it.
 template <typename Run>
 cli::ExitCode run_with_source(const std::string& url, Run run) {
   const auto source = cli::source_from(url).open(default_field_rate);
@@ -66,9 +66,9 @@ cli::ExitCode run_with_source(const std::string& url, Run run) {
 class DumpCommand {
  public:
   explicit DumpCommand(CLI::App& app)
-      : command_(app.add_subcommand("dump", "Print what comes from SOURCE, a record a line")) {
+      : command_(app.add_subcommand("dump", "Print what SOURCE receives, one record per line")) {
     add_source(*command_, url_);
-    command_->add_flag("--json", options_.json, "A JSON object a line");
+    command_->add_flag("--json", options_.json, "One JSON object per line");
     command_->add_option("--count", options_.count, "End after N records")->check(cli::whole_number(1))->type_name("N");
     add_seconds(*command_, options_.seconds);
   }
@@ -86,7 +86,7 @@ class DumpCommand {
   DumpOptions options_;
 };
 
-/// Throws where an id would go to a receiver that takes none; the error is the id between the texts.
+/// Throws if an id would be sent to a receiver that accepts none; the error is the id between the texts.
 void check_id(const transport::SinkForm& form, const std::string& before, const std::string& after) {
   if (form.sends_id || form.id.value_or(0) == 0) return;
   throw CLI::ValidationError(before + std::to_string(*form.id) + after + " sends no id; only 0 is allowed");
@@ -96,20 +96,18 @@ class RelayCommand {
  public:
   explicit RelayCommand(CLI::App& app)
       : command_(app.add_subcommand("relay",
-                                    "Pass on what comes from SOURCE to every SINK: record, play, convert, fan out")) {
+                                    "Pass on what SOURCE receives to every SINK: record, play, convert, distribute")) {
     command_->footer(cli::endpoints_help());
-    command_->add_option("SOURCE", source_url_, "Where records come from")->required();
-    command_->add_option("SINK", sink_urls_, "Where they go")->required()->expected(1, -1);
-    auto* format =
-        command_
-            ->add_option("--format", format_words_,
-                         "Format words, in quotes, for sinks whose URL says no format; default: as they come")
-            ->type_name("WORDS");
-    command_->add_option("--preset", preset_name_, "The receiver, in place of format words: see trk presets")
+    command_->add_option("SOURCE", source_url_, "The source of records")->required();
+    command_->add_option("SINK", sink_urls_, "Receivers of the records")->required()->expected(1, -1);
+    auto* format = command_
+                       ->add_option("--format", format_words_,
+                                    "Format words, in quotes, for sinks whose URL sets no format; default: as received")
+                       ->type_name("WORDS");
+    command_->add_option("--preset", preset_name_, "The receiver, instead of format words: see trk presets")
         ->type_name("NAME")
         ->excludes(format);
-    command_
-        ->add_option("--id", form_.id, "Camera number in place of the one that came, for sinks whose URL says no id")
+    command_->add_option("--id", form_.id, "Camera id that replaces the received one, for sinks whose URL sets no id")
         ->check(cli::whole_number(0, std::numeric_limits<std::uint32_t>::max()))
         ->type_name("N");
     add_seconds(*command_, seconds_);
@@ -142,7 +140,7 @@ class RelayCommand {
     form_.sends_id = preset.sends_id;
     check_id(form_, "--id ", ": the preset " + preset.name);
   }
-  /// A sink may have an id, or a preset without ids, of its own.
+  /// A URL may also set an id, or a preset without ids.
   transport::SinkEndpoint checked(transport::SinkEndpoint endpoint) const {
     check_id(transport::with_defaults(endpoint.form, form_), "endpoint \"" + endpoint.url + "\": id ",
              " with a preset that");
@@ -162,13 +160,13 @@ class MonitorCommand {
  public:
   explicit MonitorCommand(CLI::App& app)
       : command_(app.add_subcommand("monitor",
-                                    "Show live what arrives from SOURCE, and its problems: on a terminal as a "
-                                    "screen (? shows its keys, q ends it), else a line a second for every camera")) {
+                                    "Show live what arrives from SOURCE, and its problems: on a terminal as a screen "
+                                    "(? shows its keys, q ends it), else one line per second for every camera")) {
     add_source(*command_, url_);
     add_seconds(*command_, options_.seconds);
     command_
         ->add_option("--alarm", alarms_,
-                     "Raise an alarm, as 'loss>1%': bell, first line, exit code 4. May be given several times. "
+                     "Raise an alarm, such as 'loss>1%': bell, first line, exit code 3. Can be given several times. "
                      "Quantities: " +
                          monitor::alarm_quantities() + ", of the last seconds")
         ->allow_extra_args(false)
@@ -198,9 +196,10 @@ class MonitorCommand {
 class DetectCommand {
  public:
   explicit DetectCommand(CLI::App& app)
-      : command_(app.add_subcommand("detect", "Find out who sends tracking data to this machine, and how to read it")) {
+      : command_(
+            app.add_subcommand("detect", "Find out who sends tracking data to this machine, and how to receive it")) {
     command_->add_option("PORT", options_.places,
-                         "Where to listen, also GROUP:PORT; default: every port and group that is usual");
+                         "Port to listen to, or GROUP:PORT; default: all usual ports and groups");
     command_->add_option("--seconds", options_.seconds, "Listen for S seconds")
         ->capture_default_str()
         ->check(cli::positive_number())
@@ -226,9 +225,9 @@ class DetectCommand {
 class LensCommand {
  public:
   explicit LensCommand(CLI::App& app)
-      : command_(app.add_subcommand("lens", "Check a lens table, which Free-D needs, and say what is in it")) {
+      : command_(app.add_subcommand("lens", "Check a lens table, which Free-D needs, and describe its content")) {
     command_->add_option("FILE.yaml", path_, "The table")->required();
-    command_->add_option("--plot", plot_, "Draw focal length, centre shift and distortion over zoom")
+    command_->add_option("--plot", plot_, "Plot focal length, centre shift and distortion over zoom")
         ->check(cli::is_svg)
         ->type_name("FILE.svg");
   }
@@ -251,9 +250,8 @@ class LensCommand {
 
 class PresetsCommand {
  public:
-  explicit PresetsCommand(CLI::App& app)
-      : command_(app.add_subcommand("presets", "List the receivers that are known by name")) {
-    command_->add_flag("--json", as_json_, "A JSON object a line");
+  explicit PresetsCommand(CLI::App& app) : command_(app.add_subcommand("presets", "List the known receivers")) {
+    command_->add_flag("--json", as_json_, "One JSON object per line");
   }
   bool is_asked_for() const { return command_->parsed(); }
 
@@ -269,13 +267,13 @@ class PresetsCommand {
 
 std::string version() { return TRK_BRIDGE_VERSION; }
 
-/// Help on one topic, the manual page and completions: all of them from what the program itself declares.
+/// Help on one topic, the manual page and completions, generated from what the program declares.
 class HelpCommands {
  public:
   explicit HelpCommands(CLI::App& app)
       : app_(app),
         help_(app.add_subcommand("help", "Explain a command, or endpoints and their options")),
-        completion_(app.add_subcommand("completion", "Print a script by which a shell completes commands of trk")),
+        completion_(app.add_subcommand("completion", "Print a completion script for a shell")),
         // For the build.
         manual_(app.add_subcommand("manual", "Print the manual page")->group("")) {
     help_->add_option("TOPIC", topic_, "A command, or endpoints");
@@ -331,7 +329,7 @@ class HelpCommands {
 }  // namespace
 }  // namespace trk_bridge::tools
 
-// Declaring options throws where the program itself is wrong, and ends it: nothing else here is outside run_program.
+// Only declaring options is outside run_program; it throws only for errors in this program.
 // NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   using namespace trk_bridge;
@@ -352,7 +350,7 @@ int main(int argc, char** argv) {
 #endif
   const HelpCommands help_commands(app);
 #ifndef TRK_BRIDGE_WITH_BAG
-  app.footer("Built without ROS: trk bag and trk delay are not part of it.");
+  app.footer("Built without ROS: trk bag and trk delay are not included.");
 #endif
   return cli::run_program(app, argc, argv, [&] {
 #ifdef TRK_BRIDGE_WITH_BAG

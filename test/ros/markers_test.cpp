@@ -51,7 +51,7 @@ TEST_F(MarkersRefused, WrongValuesAndKeysAreNamedWithWhatIsAllowed) {
   EXPECT_THAT(refusal(), AllOf(HasSubstr("~publish_markers = true"), HasSubstr("needs publish_camera_info")));
   set("publish_camera_info", true);
   set("publish_marker", true);
-  EXPECT_THAT(refusal(), HasSubstr("~publish_marker = 1: no such parameter, nearest is publish_markers"));
+  EXPECT_THAT(refusal(), HasSubstr("~publish_marker = 1: unknown parameter, nearest is publish_markers"));
 }
 
 class Markers : public TrkToRosTest {

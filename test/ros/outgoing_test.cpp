@@ -35,7 +35,7 @@ TEST_F(OutgoingRefused, FaultsOfParametersAreNamed) {
 
 TEST_F(OutgoingRefused, AnUnknownParameterIsNamedWithTheNearestKnown) {
   set("sink", "udp://127.0.0.1:7000");
-  EXPECT_THAT(refusal(), HasSubstr("~sink = 'udp://127.0.0.1:7000': no such parameter, nearest is sinks"));
+  EXPECT_THAT(refusal(), HasSubstr("~sink = 'udp://127.0.0.1:7000': unknown parameter, nearest is sinks"));
 }
 
 TEST_F(OutgoingRefused, AnAddressThatNothingCanBeSentToIsNamed) {

@@ -257,8 +257,8 @@ TEST_F(Outputs, StorageThatDoesNotAnswer) {
     expect_live_is_ok();
   });
   const std::string said = end();
-  EXPECT_THAT(said, HasSubstr("take.trk was not closed in order: it does not respond and was abandoned; "));
-  EXPECT_THAT(said, HasSubstr(" records that waited are lost"));
+  EXPECT_THAT(said, HasSubstr("take.trk was not closed in order: it does not answer, and was not waited for; "));
+  EXPECT_THAT(said, HasSubstr(" queued records are lost"));
 }
 
 TEST_F(Outputs, AFifoThatNobodyReadsAnyMore) {

@@ -27,7 +27,7 @@ TEST_F(Refused, AWrongEndpointIsNamed) {
 TEST_F(Refused, AnUnknownParameterIsNamedWithTheNearestKnown) {
   set("source", any_udp_port);
   set("publish_camera_inf", false);
-  EXPECT_THAT(refusal(), AllOf(HasSubstr("~publish_camera_inf = 0: no such parameter, nearest is publish_camera_info"),
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("~publish_camera_inf = 0: unknown parameter, nearest is publish_camera_info"),
                                HasSubstr("\n  rosparam delete " + node_name + "/publish_camera_inf")));
 }
 

@@ -113,18 +113,18 @@ TEST_F(TfDiagnostics, StaleTfIsShownWithTheStampOfItsNewestPose) {
 }
 
 TEST_F(TfDiagnostics, ClocksThatWereFollowedOrRefusedAreShownWithTheReason) {
-  now.gate.refused = 1;
-  now.gate.last_refused = {StampJump::Kind::ahead, "crane1", "/crane_driver", 1e6};
+  now.filter.refused = 1;
+  now.filter.last_refused = {StampJump::Kind::ahead, "crane1", "/crane_driver", 1e6};
   expect(status(), Level::warn,
          "sending at 50.00 Hz; transforms refused: the stamps of frame crane1 from /crane_driver are 1000000.0 s ahead "
          "of ROS time");
-  now.gate.restarts = 1;
-  now.gate.last_restart = {StampJump::Kind::back, "crane1", "/crane_driver", 60};
+  now.filter.restarts = 1;
+  now.filter.last_restart = {StampJump::Kind::back, "crane1", "/crane_driver", 60};
   const std::string reason = "the stamps of frame crane1 from /crane_driver went back by 60.0 s";
   expect(status(), Level::warn, "tf was cleared and continues: " + reason);
   EXPECT_THAT(status().message, Not(HasSubstr("refused")));
   EXPECT_EQ(value_of(status(), "last tf restart"), reason);
-  before.gate = now.gate;
+  before.filter = now.filter;
   expect(status(), Level::ok, "sending");
 }
 

@@ -63,7 +63,7 @@ TEST(AxisCheck, SaysWhichAxisMovedAndItsSign) {
 TEST(AxisCheck, WithoutAPoseItSaysSo) {
   AxisCheck check;
   check.begin({});
-  EXPECT_THAT(check.lines().front(), HasSubstr("no pose comes"));
+  EXPECT_THAT(check.lines().front(), HasSubstr("no pose received"));
   check.look({});
   check.look(start);
   check.look(moved(3, 6));

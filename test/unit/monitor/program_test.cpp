@@ -254,7 +254,7 @@ TEST(TrkMonitor, HasKeys) {
   const std::string paused = monitor.screen.text();
   for (int i = 0; i < 10; ++i) tracker();
   monitor.type('x');
-  ASSERT_TRUE(monitor.shows("no such key")) << monitor.screen.text();
+  ASSERT_TRUE(monitor.shows("unknown key")) << monitor.screen.text();
   const auto counter = paused.substr(paused.find("counter "), 15);
   EXPECT_THAT(monitor.screen.text(), HasSubstr(counter)) << "paused";
   monitor.type('p');

@@ -122,7 +122,7 @@ TEST(ParameterReader, AMapInheritsSoundnessAndAddsItsFaults) {
   other->refuse_unknown();
   EXPECT_EQ(end_of(node),
             "~rate = 'fast': must be a number\n"
-            "~other/rat = 1: no such parameter, nearest is rate; known are rate");
+            "~other/rat = 1: unknown parameter, nearest is rate; known are rate");
 }
 
 TEST(ParameterReader, TheRemedyDeletesWhatIsOnTheMasterAndRefused) {

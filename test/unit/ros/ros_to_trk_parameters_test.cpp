@@ -122,7 +122,7 @@ TEST(ReadOutgoing, EveryKindOfFaultIsShownAtOnce) {
   EXPECT_THAT(lines_of(tree),
               UnorderedElementsAre(HasSubstr("~sinks = 'udp://'"), HasSubstr("~sinks = 'shm:99'"),
                                    HasSubstr("~rate = 'fast': must be 1 to 1000 Hz"), HasSubstr("~focdist = -1"),
-                                   HasSubstr("~apperture = 2: no such parameter, nearest is aperture"),
+                                   HasSubstr("~apperture = 2: unknown parameter, nearest is aperture"),
                                    HasSubstr("~camera_frame = 'studio': must differ")));
 }
 
@@ -277,7 +277,7 @@ TEST(ReadOutgoing, TellsEveryUnknownKeyAndWrongType) {
   tree["sink"] = "shm:7";
   tree["id"] = -1;
   tree["rate"] = "fast";
-  EXPECT_THAT(message_of(tree), AllOf(HasSubstr("~sink = 'shm:7': no such parameter, nearest is sinks"),
+  EXPECT_THAT(message_of(tree), AllOf(HasSubstr("~sink = 'shm:7': unknown parameter, nearest is sinks"),
                                       HasSubstr("~id = -1"), HasSubstr("~rate = 'fast': must be 1 to 1000 Hz")));
 }
 

@@ -164,7 +164,7 @@ TEST(Read, EveryKindOfFaultIsShownAtOnce) {
   EXPECT_THAT(lines_of(tree),
               UnorderedElementsAre(HasSubstr("~field_rate = 'fast': must be a number"),
                                    HasSubstr("~delay = 100: must be 0 to 60 seconds"),
-                                   HasSubstr("~queuesize = 10: no such parameter, nearest is queue_size"),
+                                   HasSubstr("~queuesize = 10: unknown parameter, nearest is queue_size"),
                                    HasSubstr("~constants/image_width = 1920.5: must be an integer"),
                                    HasSubstr("~constants/image_height: must be given"),
                                    HasSubstr("~constants/chip_width: must be given"),
@@ -315,19 +315,19 @@ TEST(Read, ConstantsMustBeEnoughAndKnown) {
   tree["constants"]["image_hight"] = 1080;
   EXPECT_THAT(message_of(tree),
               AllOf(HasSubstr("~constants/image_height: must be given"),
-                    HasSubstr("~constants/image_hight = 1080: no such parameter, nearest is image_height")));
+                    HasSubstr("~constants/image_hight = 1080: unknown parameter, nearest is image_height")));
 }
 
 TEST(Read, RefusesUnknownKeysWithTheNearestKnown) {
   auto tree = tree_with_source();
   tree["fieldrate"] = 25;
-  EXPECT_THAT(message_of(tree), HasSubstr("~fieldrate = 25: no such parameter, nearest is field_rate; known are"));
+  EXPECT_THAT(message_of(tree), HasSubstr("~fieldrate = 25: unknown parameter, nearest is field_rate; known are"));
 }
 
 TEST(Read, RefusesUnknownKeysOfACamera) {
   XmlRpcValue tree;
   tree["cameras"]["left"]["sorce"] = "shm:1";
-  EXPECT_THAT(message_of(tree), HasSubstr("~cameras/left/sorce = 'shm:1': no such parameter, nearest is source"));
+  EXPECT_THAT(message_of(tree), HasSubstr("~cameras/left/sorce = 'shm:1': unknown parameter, nearest is source"));
 }
 
 TEST(Read, RefusesWrongTypesWithKeyValueAndAllowed) {
@@ -354,7 +354,7 @@ TEST(Read, WithCamerasIdAndFramesBelongToEach) {
   auto tree = tree_with_source();
   tree["camera_frame"] = "cam";
   tree["cameras"]["left"]["id"] = 1;
-  EXPECT_THAT(message_of(tree), HasSubstr("~camera_frame: with cameras, it belongs to each of them"));
+  EXPECT_THAT(message_of(tree), HasSubstr("~camera_frame: belongs to each camera if cameras is set"));
 }
 
 TEST(Read, NoParametersAtAllMissTheSource) {

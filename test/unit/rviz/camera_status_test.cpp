@@ -38,7 +38,7 @@ class CameraStatusTest : public testing::Test {
 
 TEST_F(CameraStatusTest, TopicsTellWhetherAnythingComes) {
   status.camera_info(none);
-  EXPECT_EQ(line("Camera Info"), "Warn: no topic is chosen");
+  EXPECT_EQ(line("Camera Info"), "Warn: no topic selected");
   status.camera_info({"a b", "Character is not valid", 0, {}, false});
   EXPECT_EQ(line("Camera Info"), "Error: Character is not valid");
   at(1001);

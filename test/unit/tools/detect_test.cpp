@@ -120,7 +120,7 @@ TEST(Detect, NamesWhoSendsWhatToAPort) {
   EXPECT_THAT(free_d.at("doubts").dump(), HasSubstr("wrong checksum"));
 
   EXPECT_THAT(result.err, HasSubstr("datagrams from 127.0.0.1:" + std::to_string(other.port()) +
-                                    ", no protocol that is known here (the last one has 5 bytes: 68 65 6c 6c 6f)"));
+                                    ", unknown protocol (the last one has 5 bytes: 68 65 6c 6c 6f)"));
   EXPECT_THAT(result.err, Not(HasSubstr("Free-D with a fault")));
 }
 

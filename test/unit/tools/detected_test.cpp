@@ -85,7 +85,7 @@ TEST(Detected, WhatIsNotPlausibleIsNamed) {
 }
 
 TEST(Detected, ALostRecordIsADoubt) {
-  EXPECT_THAT(doubts_of(found(test::params(1), test::params(4))), ElementsAre("2 records were lost on the way"));
+  EXPECT_THAT(doubts_of(found(test::params(1), test::params(4))), ElementsAre("2 records were lost"));
 }
 
 TEST(Detected, APanThatGoesOnBeyondHalfATurnIsOneRange) {

@@ -42,7 +42,7 @@ TEST(LensReport, SaysWhatIsNotKnown) {
               ElementsAre("2 points, pchip over zoom", "zoom: 0 to 1 counts", "focal length: 8 to 9 mm",
                           "centre shift: x 0 mm, y 0 mm", "distortion at 1 mm from the optical axis: 0 %",
                           "focus: distances are not known",
-                          "constants: none; takes need them, and nodes need them as a parameter"));
+                          "constants: none; takes need them, and nodes need them as parameter"));
 }
 
 TEST(LensPlot, DrawsEveryPointAndCurve) {

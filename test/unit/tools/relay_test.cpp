@@ -407,7 +407,7 @@ TEST_F(RelayTest, AFileBeginsWhenConstantsCome) {
   feed.put(test::constants());
   feed.put(test::params(4));
   EXPECT_EQ(run(), cli::exit_good) << err.str();
-  EXPECT_THAT(err.str(), HasSubstr("left out until constants come"));
+  EXPECT_THAT(err.str(), HasSubstr("not written until constants arrive"));
   EXPECT_THAT(err.str(), HasSubstr("3 times"));
   const auto take = file::read_take(path);
   ASSERT_EQ(take.params.size(), 1u);
@@ -419,7 +419,7 @@ TEST_F(RelayTest, AFileWithoutConstantsIsNone) {
   add_file(directory / "take.trk");
   feed.put(test::params(1));
   EXPECT_EQ(run(), cli::exit_failed);
-  EXPECT_THAT(err.str(), HasSubstr("no constants came, so nothing was kept"));
+  EXPECT_THAT(err.str(), HasSubstr("no constants were received, so nothing was written"));
 }
 
 TEST_F(RelayTest, MalformedRecordsAreReportedOncePerReason) {

@@ -1,4 +1,4 @@
-#include "bridge/transform_gate.h"
+#include "bridge/transform_filter.h"
 
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@ constexpr std::int64_t start = 1'700'000'000 * second;
 /// The poses of `camera` in `studio`, over `rail`, as they come at 50 Hz.
 class Gate : public ::testing::Test {
  protected:
-  using Verdict = TransformGate::Verdict;
+  using Verdict = TransformFilter::Verdict;
 
   Gate() { gate.add_static("studio", "rail"); }
 
@@ -36,7 +36,7 @@ class Gate : public ::testing::Test {
     return most;
   }
 
-  TransformGate gate{"studio", "camera"};
+  TransformFilter gate{"studio", "camera"};
   std::int64_t now = 0;  // ns of the steady clock; ROS time began at `start`
 };
 
@@ -76,7 +76,7 @@ TEST_F(Gate, AClockThatIsAheadFromTheStartIsFollowed) {
 }
 
 TEST_F(Gate, AllLinksOfOneClockStartOverOnce) {
-  TransformGate chain{"studio", "camera"};
+  TransformFilter chain{"studio", "camera"};
   const auto both = [&](std::int64_t offset) {
     now += field;
     const auto arm = chain.judge({"studio", "arm", start + now + offset, "/driver"}, start + now, now);

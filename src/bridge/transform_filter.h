@@ -25,7 +25,7 @@ struct StampJump {
 std::string describe(const StampJump&);
 
 /// Counts only jumps of links that the pose depends on.
-struct TransformGateStatistics {
+struct TransformFilterStatistics {
   std::uint64_t refused = 0;  ///< transforms
   StampJump last_refused;
   std::uint64_t restarts = 0;  ///< how often a clock that was set was followed
@@ -44,7 +44,7 @@ struct StampedLink {
 /// A stamp may be up to 1 s ahead of ROS time, or of the current time of its link's clock, and up to 1 s behind the
 /// newest stamp of the link. Other transforms are refused. If a link has had only such transforms for `patience`, its
 /// clock was set: then the buffer must be cleared, and the new clock is used. Not synchronised: one thread at a time.
-class TransformGate {
+class TransformFilter {
  public:
   enum class Verdict : std::uint8_t {
     use,
@@ -55,7 +55,7 @@ class TransformGate {
   static constexpr std::int64_t patience = 300'000'000;
 
   /// The pose is that of `camera_frame` in `studio_frame`.
-  TransformGate(std::string studio_frame, std::string camera_frame);
+  TransformFilter(std::string studio_frame, std::string camera_frame);
 
   /// Adds a link without stamps.
   void add_static(std::string_view parent, std::string_view child) { link_of(parent, child); }
@@ -65,7 +65,7 @@ class TransformGate {
   /// `ros_now` is ROS time, `now` the steady clock, both ns. Allocates only for new links and for jumps.
   Verdict judge(const StampedLink&, std::int64_t ros_now, std::int64_t now);
 
-  const TransformGateStatistics& statistics() const noexcept { return statistics_; }
+  const TransformFilterStatistics& statistics() const noexcept { return statistics_; }
 
  private:
   struct Link {
@@ -84,7 +84,7 @@ class TransformGate {
   std::map<std::string, Link, std::less<>> links_;  // by their child
   std::int64_t ahead_ = 0;                          // ns that the followed clock is ahead of ROS time
   std::int64_t last_ros_now_ = 0;
-  TransformGateStatistics statistics_;
+  TransformFilterStatistics statistics_;
 };
 
 }  // namespace trk_bridge::bridge

@@ -1,4 +1,4 @@
-#include "transform_gate.h"
+#include "transform_filter.h"
 
 #include <algorithm>
 #include <utility>
@@ -23,10 +23,10 @@ std::string describe(const StampJump& jump) {
                                              : whose + " went back by " + far;
 }
 
-TransformGate::TransformGate(std::string studio_frame, std::string camera_frame)
+TransformFilter::TransformFilter(std::string studio_frame, std::string camera_frame)
     : studio_frame_(std::move(studio_frame)), camera_frame_(std::move(camera_frame)) {}
 
-TransformGate::Link& TransformGate::link_of(std::string_view parent, std::string_view child) {
+TransformFilter::Link& TransformFilter::link_of(std::string_view parent, std::string_view child) {
   child = without_slash(child);
   auto found = links_.find(child);
   if (found == links_.end()) found = links_.emplace(child, Link{}).first;
@@ -34,7 +34,7 @@ TransformGate::Link& TransformGate::link_of(std::string_view parent, std::string
   return found->second;
 }
 
-bool TransformGate::ros_time_went_back(std::int64_t ros_now) {
+bool TransformFilter::ros_time_went_back(std::int64_t ros_now) {
   const std::int64_t back = std::exchange(last_ros_now_, ros_now) - ros_now;
   if (back <= most_off) return false;
   start_over({StampJump::Kind::ros_time_back, "", "", seconds_between(0, back)});
@@ -42,7 +42,7 @@ bool TransformGate::ros_time_went_back(std::int64_t ros_now) {
   return true;
 }
 
-TransformGate::Verdict TransformGate::judge(const StampedLink& given, std::int64_t ros_now, std::int64_t now) {
+TransformFilter::Verdict TransformFilter::judge(const StampedLink& given, std::int64_t ros_now, std::int64_t now) {
   auto& link = link_of(given.parent, given.child);
   const auto jump = jump_of(link, given, ros_now, now);
   if (jump) {
@@ -65,7 +65,7 @@ TransformGate::Verdict TransformGate::judge(const StampedLink& given, std::int64
   return jump ? Verdict::restart : Verdict::use;
 }
 
-std::optional<StampJump> TransformGate::jump_of(const Link& link, const StampedLink& given, std::int64_t ros_now,
+std::optional<StampJump> TransformFilter::jump_of(const Link& link, const StampedLink& given, std::int64_t ros_now,
                                                 std::int64_t now) const {
   const std::int64_t expected = link.newest ? *link.newest + (now - link.newest_at) : ros_now + ahead_;
   if (given.stamp > std::max(ros_now, expected) + most_off) {
@@ -79,7 +79,7 @@ std::optional<StampJump> TransformGate::jump_of(const Link& link, const StampedL
   return std::nullopt;
 }
 
-bool TransformGate::pose_depends_on(const Link& link) const {
+bool TransformFilter::pose_depends_on(const Link& link) const {
   for (const auto& end : {camera_frame_, studio_frame_}) {
     const std::string* frame = &end;
     // Wrong transforms can form a loop.
@@ -93,7 +93,7 @@ bool TransformGate::pose_depends_on(const Link& link) const {
   return false;
 }
 
-void TransformGate::start_over(const StampJump& jump) {
+void TransformFilter::start_over(const StampJump& jump) {
   ++statistics_.restarts;
   statistics_.last_restart = jump;
   for (auto& [child, link] : links_) {
