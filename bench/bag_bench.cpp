@@ -1,4 +1,5 @@
-// A take to a bag and back, beside bare loops over rosbag::Bag and rosbag::View with the same messages.
+// Converts a take to a bag and back, compared with plain loops over rosbag::Bag and rosbag::View with the same
+// messages.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -23,7 +24,7 @@ namespace {
 
 constexpr std::int64_t fields = 50'000;
 
-/// A take of a camera that pans, in a directory of its own.
+/// A take of a camera that pans, in a temporary directory.
 class Takes {
  public:
   Takes() {
@@ -79,8 +80,8 @@ void take_to_bag(benchmark::State& state) {
 }
 BENCHMARK(take_to_bag)->Name("BM_TakeToBag/ours")->Unit(benchmark::kMillisecond);
 
-/// The same four messages a field, ready but for their stamp. It reads no take, converts nothing, and does not bring
-/// the file to the disk.
+/// Writes the same four messages per field, prepared except for their stamp. It reads no take, converts nothing, and
+/// does not sync the file to disk.
 void messages_to_bag(benchmark::State& state) {
   make_bag(takes().path("take.bag"));
   rosbag::Bag made(takes().path("take.bag"));
@@ -93,7 +94,7 @@ void messages_to_bag(benchmark::State& state) {
     if (const auto one = message.instantiate<CameraParams>()) params = *one;
     if (const auto one = message.instantiate<sensor_msgs::CameraInfo>()) info = *one;
     if (const auto one = message.instantiate<TimeCode>()) code = *one;
-    // Behind the first two fields each has come.
+    // After the first two fields, every message has been found.
     if (params.counter > 1001) break;
   }
   for (auto _ : state) {

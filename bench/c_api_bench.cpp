@@ -1,4 +1,4 @@
-// The C interface, call by call, beside what it cannot be faster than.
+// The C interface, call by call, compared with its lower limits.
 #include <arpa/inet.h>
 #include <benchmark/benchmark.h>
 #include <netinet/in.h>
@@ -66,7 +66,7 @@ void memory_nothing_new(benchmark::State& state) {
 }
 BENCHMARK(memory_nothing_new)->Name("BM_c_api_memory_nothing_new");
 
-/// A port of the loopback that nobody has.
+/// A free port of the loopback interface.
 std::uint16_t free_port() {
   const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
   sockaddr_in address{};
@@ -79,7 +79,7 @@ std::uint16_t free_port() {
   return ntohs(address.sin_port);
 }
 
-/// A datagram sent to a port of this machine and received there by two system calls, with nothing before and behind.
+/// Sends a datagram to a port of this machine and receives it, with two system calls and nothing else.
 class BareSockets {
  public:
   BareSockets() {
@@ -112,7 +112,7 @@ void two_bare_system_calls(benchmark::State& state) {
   for (auto _ : state) sockets.pass(bytes, sizeof bytes, received);
 }
 
-/// ASCII as the field prints and reads it, between the same two system calls.
+/// ASCII as existing programs print and read it, with the same two system calls.
 void bare_ascii(benchmark::State& state) {
   BareSockets sockets;
   char text[4096] = "DMC01\0PA", received[4096];
@@ -132,8 +132,8 @@ void bare_ascii(benchmark::State& state) {
   }
 }
 
-/// What trkNet asks of the system beside that: no receiver that went away fails the next datagram, so that the sender
-/// is not connected; either family; and with a datagram its sender and the kernel's time.
+/// The system calls that trkNet needs: an unconnected sender, so that a receiver that went away does not make the next
+/// datagram fail; both address families; and with every datagram its sender and the time stamp of the kernel.
 void two_bare_system_calls_with_sender_and_time(benchmark::State& state) {
   const int out = ::socket(AF_INET, SOCK_DGRAM, 0), in = ::socket(AF_INET6, SOCK_DGRAM, 0);
   const int off = 0, on = 1;

@@ -1,4 +1,4 @@
-// What a sample costs on its way through the camera layer.
+// The time that a sample takes in the module camera.
 #include <benchmark/benchmark.h>
 
 #include "camera/figure.h"

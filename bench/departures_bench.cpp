@@ -1,4 +1,4 @@
-// How even departures are, how old what is sent is, and what a set costs: departures_bench [SECONDS], at 50 Hz.
+// Measures how even departures are, the age of sent sets, and the time per set: departures_bench [SECONDS], at 50 Hz.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -38,14 +38,14 @@ trk_bridge::wire::CameraParams params_at(std::int64_t time) {
   return params;
 }
 
-/// From each to the next, how far (ms) it is off the period.
+/// Deviations of intervals from the period, ms.
 std::vector<double> deviations_of(const std::vector<double>& at) {
   std::vector<double> deviations;
   for (std::size_t i = 1; i < at.size(); ++i) deviations.push_back(std::abs(at[i] - at[i - 1] - period / 1e6));
   return deviations;
 }
 
-/// What the machine can do: a thread that does nothing but wait.
+/// The limit of the machine: a thread that only waits.
 void measure_timer(int seconds) {
   std::vector<double> at;
   const auto begin = std::chrono::steady_clock::now();
@@ -58,7 +58,7 @@ void measure_timer(int seconds) {
               part_of(deviations, 1));
 }
 
-/// Samples that arrive `jitter` ns late at most, evenly spread.
+/// Samples that arrive up to `jitter` ns late, uniformly distributed.
 void measure(int seconds, std::int64_t delay, std::int64_t jitter) {
   std::vector<double> at, age;
   Destination destination;
@@ -102,7 +102,7 @@ void measure_cost() {
     camera->depart(now + 100, now + 100);
     sent += camera->take(0, now + 100, now + 100) ? 1 : 0;
   }
-  std::printf("a set, from the sample to what is sent: %.0f ns (%d sets)\n",
+  std::printf("one set, from sample to departure: %.0f ns (%d sets)\n",
               static_cast<double>(steady_now() - begin) / sets, sent);
 }
 

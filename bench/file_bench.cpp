@@ -1,4 +1,4 @@
-// Playing a take as fast as possible, beside a bare loop over its lines with fgets and sscanf.
+// Plays a take as fast as possible, compared with a plain loop over its lines with fgets and sscanf.
 #include <benchmark/benchmark.h>
 
 #include <cinttypes>
@@ -18,7 +18,7 @@
 namespace trk_bridge {
 namespace {
 
-/// A take of a camera that moves, with six digits as trackers write them.
+/// A take of a moving camera, with six digits as trackers write them.
 class Take {
  public:
   static constexpr std::int64_t fields = 200'000;
@@ -86,7 +86,7 @@ void play_a_take(benchmark::State& state) {
 }
 BENCHMARK(play_a_take)->Name("BM_PlayATake/ours")->Unit(benchmark::kMillisecond);
 
-/// Opens it for every iteration, as the source does.
+/// Opens the file in every iteration, like the source.
 std::int64_t fields_by_sscanf(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "r"), &std::fclose);
   std::int64_t fields = 0;

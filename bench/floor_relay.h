@@ -1,4 +1,4 @@
-// The least that a relay in roscpp can be: what the bridge is measured against.
+// A minimal relay in roscpp, with which the bridge is compared.
 #pragma once
 
 #include <sys/socket.h>
@@ -14,10 +14,10 @@
 
 namespace trk_bridge::bench {
 
-/// A UDP socket of the loopback.
+/// A UDP socket of the loopback interface.
 class LoopbackSocket {
  public:
-  /// Bound to `port`; 0: one that the kernel picks. Throws std::runtime_error.
+  /// Bound to `port`; 0: chosen by the kernel. Throws std::runtime_error.
   explicit LoopbackSocket(int port);
   ~LoopbackSocket();
   LoopbackSocket(const LoopbackSocket&) = delete;
@@ -25,7 +25,7 @@ class LoopbackSocket {
 
   int port() const;
   void send(const char* data, std::size_t size, int to_port) const;
-  /// Waits for a datagram; 0 once close() was called.
+  /// Waits for a datagram; 0 after close().
   std::size_t receive(char* data, std::size_t size) const;
   void close() const;
 
@@ -33,8 +33,8 @@ class LoopbackSocket {
   int fd_;
 };
 
-/// trk of `~port` to params, camera_info and tf: no counters, no stamps but the time of receipt, no lens fit, no
-/// diagnostics. Messages go out by pointer.
+/// trk from `~port` to params, camera_info and tf: no counters, stamps are the time of receipt, no lens fit, no
+/// diagnostics. Messages are published by pointer.
 class FloorIn {
  public:
   FloorIn(::ros::NodeHandle node, const ::ros::NodeHandle& private_node, const std::string& name);

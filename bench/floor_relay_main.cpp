@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: %s in|out _port:=PORT\n", argv[0]);
     return 2;
   }
-  // The node's arguments begin with the next one.
+  // The arguments of the node begin with the next one.
   argv[1] = argv[0];
   return direction == "in" ? nodes::node_main<bench::FloorIn>(argc - 1, argv + 1, "floor_relay")
                            : nodes::node_main<bench::FloorOut>(argc - 1, argv + 1, "floor_relay");

@@ -1,5 +1,5 @@
-// How long a set takes from a datagram to subscribers, or from a topic to a datagram; through a node that runs already,
-// or through a nodelet that this program loads into a manager of its own, where the subscriber is as well:
+// Measures the time of a set from a datagram to subscribers, or from a topic to a datagram: through a node that is
+// already running, or through a nodelet that this program loads into its own manager, together with the subscriber:
 //   latency in|out [--nodelet ours|floor] --port PORT [--rate HZ] [--seconds S]
 // Prints one line for each topic: name, median, 99th percentile, largest (us), count.
 #include <algorithm>
@@ -38,7 +38,7 @@ struct Options {
   double rate = 50, seconds = 10;
 };
 
-/// When each set was sent, and how long each took. Sets are counted, not recognised: none may be lost.
+/// The latency of each set. Sets are identified by their order: none may be lost.
 class Times {
  public:
   Times(std::string name, std::size_t count, const std::vector<std::int64_t>& sent)
@@ -76,7 +76,7 @@ wire::CameraConstants constants() {
   return c;
 }
 
-/// A camera that pans and zooms, whose lens has to be fitted for every set.
+/// A camera that pans and zooms, so that the lens must be fitted for every set.
 wire::CameraParams params(std::uint64_t counter) {
   const double turn = static_cast<double>(counter % 1000) / 100;
   wire::CameraParams p;
@@ -107,14 +107,14 @@ void at_rate(double rate, std::size_t count, const std::function<void(std::size_
   std::this_thread::sleep_for(milliseconds(500));
 }
 
-/// A second in which all happens that happens once. Counters go on in send_all().
+/// One second in which everything happens that happens only once. Counters continue in send_all().
 constexpr std::uint64_t before_measuring = 1'000'000;
 void warm_up(const Options& options, const std::function<void(std::uint64_t)>& send_one) {
   const auto count = static_cast<std::size_t>(options.rate);
   at_rate(options.rate, count, [&](std::size_t i) { send_one(before_measuring - count + i); });
 }
 
-/// Calls `send_one` with a counter at the rate, and says when in `sent`.
+/// Calls `send_one` with a counter at the rate, and stores the times in `sent`.
 void send_all(const Options& options, std::vector<std::int64_t>& sent,
               const std::function<void(std::uint64_t)>& send_one, const std::vector<Times*>& times) {
   at_rate(options.rate, sent.size(), [&](std::size_t i) {
@@ -204,7 +204,7 @@ void measure_out(const Options& options, ::ros::NodeHandle node, const LoopbackS
   finish();
 }
 
-/// The manager's nodelets: the one that is measured, and a node handle beside it.
+/// A second nodelet in the manager, which provides a node handle beside the measured one.
 class Beside : public nodelet::Nodelet {
  public:
   void onInit() override {}
@@ -257,7 +257,7 @@ int main(int argc, char** argv) {
   using trk_bridge::bench::Options;
   ::ros::init(argc, argv, "latency", ::ros::init_options::AnonymousName);
   Options options;
-  CLI::App app("How long a set takes through a node or a nodelet.");
+  CLI::App app("Measures the latency of a set through a node or a nodelet.");
   app.add_option("direction", options.direction)->required()->check(CLI::IsMember({"in", "out"}));
   app.add_option("--nodelet", options.nodelet)->check(CLI::IsMember({"ours", "floor"}));
   app.add_option("--port", options.port)->required();

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Measures what is quick beside what it is compared with: each pair in one run, in turns, several times over.
+"""Measures the speed of this package compared with other code: each pair in one run, alternating, several rounds.
 
 Prints a table of ratios and writes doc/speed.csv, the table in doc/speed.md, and doc/images/speed.svg.
-Needs nothing but Python and the programs of a build with -DTRK_BRIDGE_BENCH=ON.
+Needs only Python and the programs of a build with -DTRK_BRIDGE_BENCH=ON.
 """
 
 import argparse
@@ -30,8 +30,8 @@ COLUMNS = ["group", "what", "unit", "ours", "peer", "peer is", "ratio", "least",
 
 @dataclass(frozen=True)
 class Row:
-    """What is compared: two metrics of the same run. The ratio is that of ours to the peer's; an aim is none where the
-    peer is not a measure of it."""
+    """A comparison of two metrics of the same run. The ratio is ours divided by the peer's; aim is None if there is no goal
+    for it."""
     group: str
     what: str
     unit: str
@@ -87,7 +87,7 @@ class Programs:
         return path
 
     def google(self, name, rows):
-        """Metrics of a round: name and time."""
+        """Metrics of one round: name and time."""
         wanted = sorted({metric for row in rows for metric in (row.ours, row.peer)})
         pattern = "^(" + "|".join(re.escape(one) for one in wanted) + ")(/real_time)?$"
         text = run([self.path(name), f"--benchmark_filter={pattern}", "--benchmark_format=json",
@@ -102,7 +102,7 @@ def free_port(kind):
 
 
 class Master:
-    """A ROS master of its own, from entering to leaving."""
+    """A private ROS master, from entering to leaving."""
 
     def __enter__(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -128,7 +128,7 @@ def end(process):
 
 
 class EndToEnd:
-    """Latencies through a node or a nodelet, and through the least that roscpp can do."""
+    """Latencies through a node or a nodelet, and through a minimal relay in roscpp."""
 
     def __init__(self, programs, rate, seconds):
         self.programs, self.rate, self.seconds = programs, rate, seconds
@@ -198,7 +198,7 @@ class SharedMemory:
 
 
 def measured(rounds, rows):
-    """Rows of the table, of the rounds' metrics."""
+    """Rows of the table from the metrics of all rounds."""
     for row in rows:
         pairs = [(one[row.ours], one[row.peer]) for one in rounds]
         ratios = [ours / peer for ours, peer in pairs if peer > 0] or [float("nan")]

@@ -1,4 +1,4 @@
-// A sample of OpenTrackIO, read and written, in both encodings. A sample has to be read in 20 us.
+// Reads and writes a sample of OpenTrackIO in both encodings. Reading a sample must take less than 20 us.
 #include <string>
 #include <vector>
 
@@ -38,7 +38,7 @@ void use_time(PacketEncoder& encoder) {
   encoder.use_time(1'700'000'000'123'456'789, base::CountedTimeCode{{10, 20, 30, 12, 2}, 50});
 }
 
-/// Of dynamic samples, each another one.
+/// Decodes dynamic samples, all different.
 void decode(benchmark::State& state, Encoding encoding) {
   PacketEncoder encoder(settings(), encoding, uuid(1, 2));
   use_time(encoder);

@@ -1,7 +1,7 @@
-// From the write of a set into shared memory to its reception in another process, and what waiting for it costs: the
-// source beside the bare mechanisms. Prints CSV: name, ours, peer, unit.
+// Measures the time from the write of a set to shared memory to its reception in another process, and the CPU time of
+// waiting for it: the source compared with the bare mechanisms. Prints CSV: name, ours, peer, unit.
 //
-//   shm_bench [SECONDS [ROUNDS]]: each measurement is taken for so long (2), and all of them in turns (3).
+//   shm_bench [SECONDS [ROUNDS]]: each measurement takes SECONDS (2), and all are repeated ROUNDS times (3).
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -66,7 +66,7 @@ double cpu_seconds() noexcept {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// Between the two processes: when each set was written, and a word to wait for.
+/// Shared by the two processes: when each set was written, and a word to wait for.
 struct Shared {
   static constexpr std::size_t most = 1 << 20;
   std::array<std::atomic<std::int64_t>, most> written;
@@ -79,7 +79,7 @@ Shared& shared() {
   return *memory;
 }
 
-/// A process that calls `write(counter)` at the rate; ended by the destructor.
+/// A process that calls `write(counter)` at the rate; the destructor ends it.
 class Writer {
  public:
   Writer(double rate, const std::function<std::function<void(std::uint64_t)>()>& prepare) {
@@ -109,7 +109,7 @@ class Writer {
   pid_t child_ = 0;
 };
 
-/// What one way of reading cost.
+/// The result of one way of reading.
 struct Result {
   std::vector<double> latencies;  // us
   double cpu = 0, seconds = 0;
@@ -123,8 +123,8 @@ struct Result {
   double percent() const { return 100 * cpu / seconds; }
 };
 
-/// Reads with `next`, which gives the counter of the next set, or 0 after some time without one. What comes before it
-/// has settled does not count: the rhythm learned, or given up.
+/// Reads with `next`, which returns the counter of the next set, or 0 after some time without one. Sets during the
+/// warm-up are not counted, until the rhythm is known or given up.
 void measure(Result& result, double rate, double seconds, const std::function<std::uint64_t()>& next) {
   const std::int64_t warm_up = rate > 0 ? 500'000'000 : 3'000'000'000;
   const std::int64_t begin = now_ns() + warm_up, end = begin + static_cast<std::int64_t>(seconds * 1e9);
@@ -150,7 +150,7 @@ wire::CameraParams params_of(std::uint64_t counter) {
 }
 
 int free_slot() {
-  for (int slot = 30; slot >= 0; --slot) {  // tests take them from the end
+  for (int slot = 30; slot >= 0; --slot) {  // tests use slots from the end
     if (::access(shm::slot_path(slot).c_str(), F_OK) != 0) return slot;
   }
   std::fprintf(stderr, "shm_bench: every slot has a file\n");
@@ -159,7 +159,7 @@ int free_slot() {
 
 const shm::SegmentLayout& layout() { return *shm::layout_of(shm::default_layout); }
 
-/// As a program of the field writes.
+/// Writes like existing programs.
 std::function<void(std::uint64_t)> field_writer(int id) {
   char* const base = static_cast<char*>(::shmat(id, nullptr, 0));
   return [base](std::uint64_t number) {
@@ -193,7 +193,7 @@ void read_by_source(Result& result, double rate, WriterOf writer_of, double seco
   });
 }
 
-/// The floor of looking: the counter, every 60 us.
+/// Lower limit of polling: reads the counter every 60 us.
 void read_by_poll(Result& result, double rate, WriterOf, double seconds) {
   const int slot = free_slot();
   const auto segment = shm::Segment::attach_or_create(slot, layout(), 0600).value();
@@ -209,7 +209,7 @@ void read_by_poll(Result& result, double rate, WriterOf, double seconds) {
   });
 }
 
-/// The floor of an idle reader: a sleep of 100 ms after another.
+/// Lower limit of an idle reader: sleeps of 100 ms.
 void sleep_alone(Result& result, double rate, WriterOf, double seconds) {
   measure(result, rate, seconds, [] {
     sleep_until(now_ns() + 100'000'000);
@@ -217,7 +217,7 @@ void sleep_alone(Result& result, double rate, WriterOf, double seconds) {
   });
 }
 
-/// The floor of waking.
+/// Lower limit of waking a process.
 void read_by_futex(Result& result, double rate, WriterOf, double seconds) {
   auto& word = shared().word;
   word = 0;
@@ -236,7 +236,7 @@ void read_by_futex(Result& result, double rate, WriterOf, double seconds) {
   });
 }
 
-/// What a datagram takes.
+/// The latency of a datagram.
 void read_by_socket(Result& result, double rate, WriterOf, double seconds) {
   const int receiver = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};

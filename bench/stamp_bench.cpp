@@ -1,4 +1,4 @@
-// What the stamp of a sample costs.
+// The time that the stamp of a sample takes.
 #include <benchmark/benchmark.h>
 
 #include <array>

@@ -1,6 +1,6 @@
-// What trk_to_ros would have stamped: lines "counter arrival_ns" from standard input, "counter stamp_ns" to standard
-// output. Lines that are not new (a counter that came before, or comes late) give none, as nothing of them is
-// published.
+// Computes the stamps that trk_to_ros would have used: reads lines "counter arrival_ns" from standard input, writes
+// "counter stamp_ns" to standard output. Lines that are not new (a duplicate or late counter) give no output, because
+// trk_to_ros publishes nothing for them.
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -33,7 +33,7 @@ void summarize(const bridge::CounterClockStatistics& found) {
   const bridge::StandardRate* standard = bridge::standard_rate(rate);
   std::cerr << "stamp_replay: " << rate << " Hz (" << (standard != nullptr ? standard->name : "none") << "), jitter "
             << found.jitter_before / 1e6 << " ms before, " << found.jitter_after / 1e6 << " ms after, "
-            << found.outliers << " left out, " << found.steps << " steps, " << found.restarts << " restarts, "
+            << found.outliers << " outliers, " << found.steps << " steps, " << found.restarts << " restarts, "
             << found.rate_changes << " rate changes\n";
 }
 
@@ -53,7 +53,7 @@ int main() {
                 << "\": must be a counter (0 or more) and an arrival in ns, whole numbers\n";
       return 1;
     }
-    // Of a record only its counter is known: one that came before is the same record. 0 is no fingerprint.
+    // Only the counter of a record is known: an equal counter means the same record. 0 is not a valid fingerprint.
     if (!base::is_new(sequence.judge(counter, counter + 1))) continue;
     std::cout << counter << ' ';
     if (sequence.counts().state == base::CounterState::counts) {

@@ -1,4 +1,4 @@
-// What a datagram costs from a sink to a source over the loopback.
+// The time of a datagram from a sink to a source over the loopback interface.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -38,7 +38,7 @@ std::string place_of(const Source& source) {
 
 const char* options(const benchmark::State& state) { return state.range(0) == 0 ? "" : "?binary=1"; }
 
-/// One set there and read at once: what every sample pays.
+/// Writes one set and reads it at once: the cost of every sample.
 void BM_WriteAndReceive(benchmark::State& state) {
   const auto source = open_source("udp://127.0.0.1:0");
   const auto sink = open_sink(place_of(*source) + options(state));
@@ -56,7 +56,7 @@ void BM_WriteAndReceive(benchmark::State& state) {
 }
 BENCHMARK(BM_WriteAndReceive)->ArgName("binary")->Arg(0)->Arg(1);
 
-/// A queue full of datagrams read in batches; writing them is not timed.
+/// Reads a queue of datagrams in batches; writing them is not timed.
 void BM_ReceiveQueued(benchmark::State& state) {
   constexpr int queued = 128;
   const auto source = open_source("udp://127.0.0.1:0");
@@ -82,7 +82,7 @@ void BM_ReceiveQueued(benchmark::State& state) {
 }
 BENCHMARK(BM_ReceiveQueued)->ArgName("binary")->Arg(0)->Arg(1);
 
-/// Writing alone, encoding and system call.
+/// Only writing: encoding and system call.
 void BM_Write(benchmark::State& state) {
   const auto source = open_source("udp://127.0.0.1:0");
   const auto sink = open_sink(place_of(*source) + options(state));

@@ -1,5 +1,5 @@
-// Time to read and to write one record, each beside what it is measured by: ASCII by sscanf and sprintf with the
-// field's conversions (doc/wire_formats.md), binary by two copies of the 200 bytes.
+// Time to read and to write one record, compared with other code: ASCII with sscanf and sprintf with the conversions of
+// existing programs (doc/wire_formats.md), binary with two copies of the 200 bytes.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -27,7 +27,7 @@ constexpr std::uint32_t euler = wire::euler | wire::studio_y_up;
 constexpr std::uint32_t matrix = wire::studio_y_up;
 constexpr std::size_t many = 512;
 
-/// A shot: the camera moves, and where it zooms, the lens changes; the iris stays.
+/// A shot: the camera moves; if it zooms, the lens changes; the iris stays.
 CameraParams field_of_shot(std::uint32_t format, bool zooms, std::size_t i) {
   const double t = 0.02 * static_cast<double>(i);
   const double pan = 0.7 * std::sin(0.31 * t), tilt = 0.2 * std::sin(0.53 * t),
@@ -73,7 +73,7 @@ std::vector<CameraParams> shot(std::uint32_t format, bool zooms = true) {
   return all;
 }
 
-/// ASCII as the field prints it.
+/// ASCII as existing programs print it.
 std::size_t field_print(const CameraParams& p, char* to) {
   const wire::Euler& e = p.euler;
   const auto& m = p.matrix;
@@ -89,7 +89,7 @@ std::size_t field_print(const CameraParams& p, char* to) {
                    p.center_x, p.center_y, p.k1, p.k2, p.focdist, p.aperture, counter));
 }
 
-/// ASCII as the field reads it.
+/// ASCII as existing programs read it.
 bool field_scan(const char* text, CameraParams& p) {
   int skip = 0;
   if (std::sscanf(text, "%x%n", &p.format, &skip) != 1) return false;
@@ -117,7 +117,7 @@ wire::WireForm form_of(wire::Encoding encoding) {
   return {encoding, {wire::Generation::identified, wire::Abi::lp64, wire::ByteOrder::little}};
 }
 
-/// Whose digits a text has: the field's 6 to 8, or ours, which are all.
+/// The digits of a text: 6 to 8 as in existing programs, or all as in ours.
 enum class Digits { few, all };
 
 std::string datagram_of(const CameraParams& params, wire::Encoding encoding, Digits digits) {
@@ -137,7 +137,7 @@ std::vector<std::string> datagrams(std::uint32_t format, wire::Encoding encoding
   return all;
 }
 
-/// One after another, for ever.
+/// Returns one after another, cyclically.
 template <class T>
 class Ring {
  public:
@@ -149,7 +149,7 @@ class Ring {
   std::size_t i_ = 0;
 };
 
-/// A whole datagram to a sample.
+/// Decodes a datagram to a sample.
 void decode(benchmark::State& state, std::vector<std::string> datagrams, bool with_constants) {
   Ring<std::string> ring(std::move(datagrams));
   trk::DatagramDecoder decoder({});
@@ -157,7 +157,7 @@ void decode(benchmark::State& state, std::vector<std::string> datagrams, bool wi
   sender.kind = transport::SenderKind::ipv4;
   transport::Sample sample;
   transport::Fault fault;
-  // As our senders repeat them: with them the layout of binary records is known.
+  // Our senders repeat constants: they determine the layout of binary records.
   wire::Buffer buffer;
   if (with_constants) {
     decoder.begin(*wire::encode(wire::CameraConstants{}, form_of(wire::Encoding::binary), buffer), sender);
@@ -171,7 +171,7 @@ void decode(benchmark::State& state, std::vector<std::string> datagrams, bool wi
   }
 }
 
-/// A record to a whole datagram.
+/// Encodes a record to a datagram.
 void encode(benchmark::State& state, const std::vector<CameraParams>& records, wire::Encoding encoding) {
   Ring<CameraParams> ring(records);
   trk::DatagramEncoder encoder(form_of(encoding));

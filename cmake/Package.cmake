@@ -1,8 +1,8 @@
-# find_package(trk_bridge CONFIG) of other projects.
+# For find_package(trk_bridge CONFIG) in other projects.
 install(EXPORT trk_bridge NAMESPACE trk_bridge:: FILE trk_bridgeTargets.cmake DESTINATION ${TRK_BRIDGE_CMAKE_DIR})
 
 if(TRK_BRIDGE_ROS)
-  # trk_bridgeConfig.cmake is catkin's; the devel space has targets, too.
+  # catkin makes trk_bridgeConfig.cmake; the devel space has targets, too.
   export(EXPORT trk_bridge NAMESPACE trk_bridge::
     FILE ${CATKIN_DEVEL_PREFIX}/${TRK_BRIDGE_CMAKE_DIR}/trk_bridgeTargets.cmake)
 else()
@@ -15,9 +15,9 @@ else()
     DESTINATION ${TRK_BRIDGE_CMAKE_DIR})
 endif()
 
-# pkg-config's files: the C libraries, and the C++ ones that others may link. They are found from where they lie, so that
-# an installation may be moved. catkin's own trk_bridge.pc, which this replaces, has a prefix that is fixed, and an
-# include path that no compiler finds, and requires packages whose own files are not everywhere (pluginlib).
+# Files for pkg-config: for the C libraries, and for the C++ libraries that other projects can link. Paths are relative
+# to the .pc file, so that an installation can be moved. They replace the trk_bridge.pc of catkin, which has a fixed
+# prefix and a wrong include path, and requires packages without .pc files on some systems (pluginlib).
 file(RELATIVE_PATH TRK_PC_TO_PREFIX /prefix/${TRK_BRIDGE_LIB_DIR}/pkgconfig /prefix)
 set(TRK_PC_LIBS)
 foreach(library endpoints camera transport wire base)
@@ -26,7 +26,7 @@ endforeach()
 set(TRK_PC_REQUIRES)
 if(TRK_BRIDGE_ROS)
   string(PREPEND TRK_PC_LIBS "-ltrk_bridge_ros")
-  # Those whose headers ours include.
+  # Packages whose headers our headers include.
   set(TRK_PC_REQUIRES " geometry_msgs roscpp sensor_msgs std_msgs")
 endif()
 string(STRIP "${TRK_PC_LIBS}" TRK_PC_LIBS)
@@ -34,7 +34,7 @@ string(STRIP "${TRK_PC_LIBS}" TRK_PC_LIBS)
 # trk_bridge_pkg_config(NAME TEMPLATE)
 function(trk_bridge_pkg_config TRK_PC_NAME template)
   if(TRK_BRIDGE_ROS)
-    # For who has sourced the devel space.
+    # For users who have sourced the devel space.
     set(TRK_PC_INCLUDE_DIR ${PROJECT_SOURCE_DIR}/include)
     set(TRK_PC_CFLAGS " -I\${prefix}/include")  # of generated messages
     configure_file(cmake/${template} ${CATKIN_DEVEL_PREFIX}/${TRK_BRIDGE_LIB_DIR}/pkgconfig/${TRK_PC_NAME}.pc @ONLY)
@@ -42,7 +42,7 @@ function(trk_bridge_pkg_config TRK_PC_NAME template)
   set(TRK_PC_CFLAGS)
   set(TRK_PC_INCLUDE_DIR "\${prefix}/${TRK_BRIDGE_INCLUDE_DIR}")
   configure_file(cmake/${template} pkgconfig/${TRK_PC_NAME}.pc @ONLY)
-  # It is made above.
+  # Made above.
   #catkin_lint: ignore_once missing_file
   install(FILES ${PROJECT_BINARY_DIR}/pkgconfig/${TRK_PC_NAME}.pc DESTINATION ${TRK_BRIDGE_LIB_DIR}/pkgconfig)
 endfunction()

@@ -14,18 +14,18 @@ find_package(catkin REQUIRED COMPONENTS
   visualization_msgs
   xmlrpcpp
 )
-# For trk bag alone; nodes do without.
+# Only for trk bag; nodes do not use it.
 find_package(rosbag_storage REQUIRED)
 find_package(roslz4 REQUIRED)
 find_package(tf2 REQUIRED)
 find_package(tf2_msgs REQUIRED)
 find_package(BZip2 REQUIRED)
-# For delays measured in pictures: nodes and trk delay.
+# To measure delays in pictures: delay_meter, trk delay.
 find_package(cv_bridge REQUIRED)
 # For test_card and tests.
 find_package(image_geometry REQUIRED)
 find_package(image_transport REQUIRED)
-# For the display: rviz, and its own Qt.
+# For the display: rviz, and the Qt version that it uses.
 find_package(rviz REQUIRED)
 find_package(Qt5 ${rviz_QT_VERSION} REQUIRED COMPONENTS Core Gui Widgets)
 
@@ -57,9 +57,9 @@ catkin_package(
 
 set(TRK_BRIDGE_LIB_DIR ${CATKIN_PACKAGE_LIB_DESTINATION})
 set(TRK_BRIDGE_BIN_DIR ${CATKIN_GLOBAL_BIN_DESTINATION})
-# Where rosrun looks; catkin_package() puts the programs of the devel space there, too.
+# Where rosrun searches; catkin_package() puts the programs of the devel space there, too.
 set(TRK_BRIDGE_TOOL_DIR ${CATKIN_PACKAGE_BIN_DESTINATION})
-# rosrun leaves out whatever is in a package's folder build/, so that programs built there need another way to be found.
+# rosrun ignores a folder build/ in a package, so programs built there are found through a link.
 string(FIND "${CATKIN_DEVEL_PREFIX}/" "${PROJECT_SOURCE_DIR}/build/" in_own_build_folder)
 if(in_own_build_folder EQUAL 0)
   file(MAKE_DIRECTORY "${CATKIN_DEVEL_PREFIX}/${TRK_BRIDGE_TOOL_DIR}")
@@ -71,7 +71,7 @@ if(in_own_build_folder EQUAL 0)
 endif()
 set(TRK_BRIDGE_INCLUDE_DIR ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 set(TRK_BRIDGE_SHARE_DIR ${CATKIN_PACKAGE_SHARE_DESTINATION})
-# Where catkin_package() puts its own.
+# Where catkin_package() puts its files.
 set(TRK_BRIDGE_CMAKE_DIR ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
 
 install(DIRECTORY include/trk_bridge/ros DESTINATION ${TRK_BRIDGE_INCLUDE_DIR}/trk_bridge FILES_MATCHING PATTERN "*.h")

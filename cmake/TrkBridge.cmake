@@ -1,7 +1,7 @@
-# What every target of this project has in common.
+# Functions and options for all targets of this project.
 include(CheckCXXSourceCompiles)
 
-# Numbers that are not plain are read with std::from_chars for doubles.
+# std::from_chars for double reads numbers that the fast path does not handle.
 set(CMAKE_REQUIRED_FLAGS -std=c++17)
 check_cxx_source_compiles(
   "#include <charconv>
@@ -14,20 +14,20 @@ if(NOT TRK_BRIDGE_HAS_FROM_CHARS)
 endif()
 
 add_library(trk_bridge_options INTERFACE)
-# Nobody replaces a function of a library by another of its name, so that calls within one need no table.
+# Functions of a library are never replaced by others with the same name, so calls within a library need no indirection.
 target_compile_options(trk_bridge_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
   -fno-semantic-interposition
   $<$<BOOL:${TRK_BRIDGE_WERROR}>:-Werror>)
 
-# trk_bridge_library(TARGET SOURCE... [PLUGIN] [EXPORT_AS NAME] [PUBLIC LIB...] [PRIVATE LIB...]): a module's library, shared
-# and installed. With EXPORT_AS it is the target trk_bridge::NAME, for other projects as well. The binary interface is that
-# of a minor version; a PLUGIN, which ROS loads by its file name, has none.
+# trk_bridge_library(TARGET SOURCE... [PLUGIN] [EXPORT_AS NAME] [PUBLIC LIB...] [PRIVATE LIB...]): the library of a
+# module, shared and installed. With EXPORT_AS it is the target trk_bridge::NAME, for other projects as well. The binary
+# interface is stable within a minor version; a PLUGIN, which ROS loads by its file name, has no version.
 function(trk_bridge_library name)
   cmake_parse_arguments(ARG "PLUGIN" "EXPORT_AS" "PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} SHARED ${ARG_UNPARSED_ARGUMENTS})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
-  # Other projects include its headers, and their compiler may begin with an older C++.
+  # Other projects include its headers, and their compiler may default to an older C++.
   target_compile_features(${name} PUBLIC cxx_std_17)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} trk_bridge_options)
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN")
@@ -51,7 +51,7 @@ function(trk_bridge_program name)
   cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
   add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} trk_bridge_options)
-  # Installed programs find their libraries wherever the tree lies.
+  # Installed programs find their libraries wherever the installation is.
   file(RELATIVE_PATH to_libraries "/${TRK_BRIDGE_TOOL_DIR}" "/${TRK_BRIDGE_LIB_DIR}")
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
   install(TARGETS ${name} RUNTIME DESTINATION ${TRK_BRIDGE_TOOL_DIR})
@@ -62,7 +62,7 @@ function(trk_bridge_gtest name)
   cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
   if(TRK_BRIDGE_ROS)
     catkin_add_gmock(${name} ${ARG_UNPARSED_ARGUMENTS})
-    # The main one needs the other: archives are searched in order.
+    # gmock_main needs gmock, and archives are searched in order.
     target_link_libraries(${name} ${ARG_LIBS} trk_bridge_options trk_bridge_test_support
       ${GMOCK_MAIN_LIBRARIES} ${GMOCK_LIBRARIES})
   else()

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Refuses arguments that a launch file does not have. roslaunch passes over them, so that camra:=crane1 does nothing.
+"""Refuses arguments that a launch file does not have. roslaunch ignores them, so that camra:=crane1 would do nothing.
 
 In a launch file: <param name="…" command="python3 $(find trk_bridge)/launch/check_arguments.py $(find trk_bridge)/launch/FILE"/>
-roslaunch runs the command while it reads the file, and ends with an error where the command fails. The output is the
-parameter's value: the name of the file. Where FILE is included by another file, or started by something else than
-roslaunch, there is nothing to check: includes are checked by roslaunch itself.
+roslaunch runs the command while it reads the file, and ends with an error if the command fails. The output, which is the name
+of the file, becomes the value of the parameter. If FILE is included by another file, or not started by roslaunch, nothing is
+checked: roslaunch itself checks the arguments of includes.
 """
 
 import difflib
@@ -23,7 +23,7 @@ def command_line_of_parent():
 
 
 def given_to(path, words):
-    """Names of the arguments; none where roslaunch was not started with this file."""
+    """Names of the given arguments; none if roslaunch was not started with this file."""
     names = [pathlib.Path(word).name for word in words]
     if "roslaunch" not in names:
         return []

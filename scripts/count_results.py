@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Sums a ctest run of this project to one line, "N passed, N failed", and exits 1 if anything failed.
+"""Summarises a ctest run of this project in one line, "N passed, N failed", and exits with 1 if anything failed.
 
 Usage: count_results.py BUILD [STEP...]. Tests that catkin runs leave a JUnit file of their cases in BUILD/test_results;
-every other test of ctest counts as one case. A test that failed without a failed case (it crashed, or left no file)
-counts as one, too, as does each STEP, the name of something else that failed. That no test ran at all is a failure.
+every other test of ctest counts as one case. A test that failed without a failed case (it crashed, or left no file) counts as
+one failure, as does each STEP, the name of something else that failed. It is a failure if no test ran at all.
 """
 
 import pathlib
@@ -16,7 +16,7 @@ def cases_of(results):
     """(passed, failed) over the JUnit files below a folder."""
     passed = failed = 0
     for path in sorted(results.rglob("*.xml")):
-        # rostest repeats in a file of its own that the test it ran has left a result.
+        # rostest writes an extra file that only says that the test left a result.
         if path.name.startswith("rostest-") and not _has_failure(path):
             continue
         for case in xml.etree.ElementTree.parse(path).getroot().iter("testcase"):
@@ -33,7 +33,7 @@ def _has_failure(path):
 
 
 def ctests_of(build):
-    """Names of the tests that ctest ran, and of those among them that failed."""
+    """Names of the tests that ctest ran, and of those that failed."""
     log = build / "Testing" / "Temporary" / "LastTest.log"
     ran = re.findall(r"^\d+/\d+ Test: (\S+)$", log.read_text(errors="replace"), re.MULTILINE) if log.exists() else []
     failures = build / "Testing" / "Temporary" / "LastTestsFailed.log"

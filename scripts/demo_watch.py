@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Prints a line a second of a camera that came back from trk, and a summary at the end.
+"""Prints one line per second about a camera that was received back from trk, and a summary at the end.
 
-Beside what the camera sends into ROS it prints how far that is from what the crane did: ros_to_trk publishes on `sent`
-which tf time every counter belongs to, trk_to_ros on `params` which counter a pose has. Exits 1 when nothing, or not
-everything of a camera (params, CameraInfo, tf, poses to compare), arrived.
+Also prints the difference from the crane: ros_to_trk publishes the tf time of every counter on `sent`, trk_to_ros the counter
+of every pose on `params`. Exits with 1 if nothing arrived, or not all data of a camera (params, CameraInfo, tf, poses to
+compare).
 """
 
 import argparse
@@ -34,7 +34,7 @@ def angle_between(one, other):
 
 
 class Watch:
-    """What came back of one camera, and what the crane did. rospy's threads fill it, the main thread reads it."""
+    """Data of the received camera and of the crane. The threads of rospy write it, the main thread reads it."""
 
     def __init__(self, camera, crane, crane_frame):
         self._lock = threading.Lock()
@@ -50,7 +50,7 @@ class Watch:
         self.compared = 0
         self.largest_mm = self.largest_deg = 0.0
         self._sent = collections.OrderedDict()  # counter -> tf time
-        self._counters = collections.OrderedDict()  # stamp of what came back -> counter
+        self._counters = collections.OrderedDict()  # stamp of the received pose -> counter
         self._transforms = collections.deque(maxlen=1000)  # not compared yet
         self._tf = tf2_ros.Buffer()
         self._tf_listener = tf2_ros.TransformListener(self._tf, queue_size=1000)
@@ -100,7 +100,7 @@ class Watch:
                     self.diagnostics = {value.key: value.value for value in status.values}
 
     def compare(self):
-        """Takes the poses that came back and whose counter and crane pose are known; the others wait for these."""
+        """Compares the received poses whose counter and crane pose are known; the others wait."""
         with self._lock:
             waiting = collections.deque(maxlen=self._transforms.maxlen)
             for back in self._transforms:
@@ -154,15 +154,15 @@ class Watch:
                 out.append(f"               K {' '.join(f'{v:.6g}' for v in i.K)}")
                 out.append(f"               D {' '.join(f'{v:.6g}' for v in i.D)}")
             if self.compared:
-                out.append(f"  largest difference between what the crane did and what came back, of {self.compared} poses: "
+                out.append(f"  largest difference between the crane and the received camera, of {self.compared} poses: "
                            f"{self.largest_mm:.2g} mm, {self.largest_deg:.2g} degrees")
             else:
-                out.append("  no pose that came back could be compared with the crane's")
+                out.append("  no received pose could be compared with the crane")
             return "\n".join(out)
 
 
 def wait_for_master(seconds):
-    """rospy waits for a master without end; this says after `seconds` that there is none."""
+    """rospy waits for a master without limit; this ends after `seconds` with an error."""
     deadline = time.monotonic() + seconds
     while True:
         try:
@@ -176,7 +176,7 @@ def wait_for_master(seconds):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--camera", required=True, help="name of what comes back, which is also its namespace and frame")
+    parser.add_argument("--camera", required=True, help="name of the received camera, which is also its namespace and frame")
     parser.add_argument("--crane", required=True, help="namespace of the crane's ros_to_trk")
     parser.add_argument("--crane-frame", required=True, help="the crane's camera frame")
     parser.add_argument("--seconds", type=float, default=0, help="how long to watch after the first sample; 0: until Ctrl-C")
@@ -200,7 +200,7 @@ def main():
             started = now
         if started is None and now > deadline:
             print(f"demo_watch: params, camera_info, tf of {options.camera} and poses of {options.crane_frame} to compare "
-                  f"them with have not all come within {options.patience:.0f} s", file=sys.stderr)
+                  f"them with have not all arrived within {options.patience:.0f} s", file=sys.stderr)
             break
         if started is not None and options.seconds and now - started >= options.seconds:
             break

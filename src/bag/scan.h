@@ -1,4 +1,5 @@
 // Reads the messages of a bag without an index, because its recorder crashed or its end was lost.
+//
 // `rosbag reindex` rewrites a bag in place, but a damaged recording should stay unchanged. So its records are read one
 // after another (bag format 2.0) as long as they are complete, and compressed chunks as far as they can be unpacked.
 #pragma once

@@ -38,6 +38,7 @@ struct OutletState {
 /// A sink whose writes never block is written in the caller's thread. Every other sink has a queue and a thread, which
 /// also opens it and retries every second while that fails. While shared memory is being attached, the oldest sets are
 /// dropped; if storage does not keep up, the recording ends.
+///
 /// write(), finish() and close() may be called by one thread at a time, the other functions by any.
 class Outlet {
  public:

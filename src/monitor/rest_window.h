@@ -23,6 +23,7 @@ struct Rest {
 };
 
 /// The poses of one camera within the last three seconds. Not synchronised.
+///
 /// The camera is at rest if, for each number, the range is at most `most_range` and the means of the older and the
 /// newer half of the window differ by at most `most_drift`. The limit of the range is above the noise of any tracker.
 /// The means detect a slow motion: its halves differ by half its distance, while those of noise agree. Needs twenty
