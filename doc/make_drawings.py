@@ -9,7 +9,7 @@ not what would be written are an error. Needs nothing but Python.
 import pathlib
 import sys
 
-from drawings import lens_plot, picture_plane, rooms, speed_plot, stamp_plot, studio
+from drawings import lens_plot, modules, picture_plane, speed_plot, stamp_plot, studio
 
 IMAGES = pathlib.Path(__file__).resolve().parent / "images"
 PICTURES = {
@@ -21,7 +21,7 @@ PICTURES = {
     "distortion.svg": picture_plane.distortion,
     "lens_fit_there.svg": lens_plot.there,
     "lens_fit_back.svg": lens_plot.back,
-    "rooms.svg": rooms.rooms,
+    "modules.svg": modules.modules,
     "stamps.svg": stamp_plot.stamps,
     "speed.svg": speed_plot.speed,
 }
