@@ -112,7 +112,7 @@ class CraneOnTf : public NodeTest<nodes::RosToTrk> {
   std::optional<Repeating> moving;
 };
 
-TEST_F(CraneOnTf, OneTransformFarAheadCostsNothing) {
+TEST_F(CraneOnTf, OneTransformFarAheadIsIgnored) {
   move(0);
   ASSERT_TRUE(starts());
   ASSERT_TRUE(goes_on());
@@ -194,7 +194,7 @@ TEST_F(SimulatedTime, ABagThatLoopsIsFollowedAtOnce) {
   expect_true_poses();
 }
 
-TEST_F(SimulatedTime, ThatStandsIsShownUntilItRuns) {
+TEST_F(SimulatedTime, ThatStandsStillIsShownUntilItRuns) {
   ASSERT_TRUE(starts());
   EXPECT_TRUE(diagnostics.reports(ros(), DiagnosticStatus::WARN, "/clock stands or has been silent for "));
   play();

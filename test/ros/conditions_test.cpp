@@ -109,7 +109,7 @@ TEST_F(Conditions, TheFirstRateIsThatOfTheRecordsSinceTheStart) {
   EXPECT_GT(rate, 5) << *first;
 }
 
-TEST_F(Conditions, MalformedDatagramsCostThemselvesAlone) {
+TEST_F(Conditions, OnlyMalformedDatagramsAreLost) {
   ASSERT_NO_FATAL_FAILURE(open());
   tracker->send_bytes("hello");
   EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "datagrams arrive, but none is trk"));
@@ -123,7 +123,7 @@ TEST_F(Conditions, MalformedDatagramsCostThemselvesAlone) {
   EXPECT_TRUE(eventually([this] { return transforms->transforms.size() == 2; }));
 }
 
-TEST_F(Conditions, WhatIsNoRotationNeverReachesTf) {
+TEST_F(Conditions, InvalidRotationsNeverReachTf) {
   ASSERT_NO_FATAL_FAILURE(open());
   auto mirrored = test::params(2);
   mirrored.format = 0;
@@ -136,7 +136,7 @@ TEST_F(Conditions, WhatIsNoRotationNeverReachesTf) {
   EXPECT_TRUE(eventually([this] { return transforms->transforms.size() == 2; }));
 }
 
-TEST_F(Conditions, SilenceIsToldAndNothingIsRepeated) {
+TEST_F(Conditions, SilenceIsReportedAndNothingIsRepeated) {
   ASSERT_NO_FATAL_FAILURE(open());
   EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::STALE, "nothing received yet"));
   tracker->send(test::params(1));
@@ -152,7 +152,7 @@ TEST_F(Conditions, SendersThatAreNotAllowed) {
   EXPECT_TRUE(transforms->transforms.empty());
 }
 
-TEST_F(Conditions, IdsThatTheCameraDoesNotWant) {
+TEST_F(Conditions, IdsOfNoCamera) {
   set("id", 7);
   ASSERT_NO_FATAL_FAILURE(open());
   tracker->send(test::params(1, 3));
@@ -187,7 +187,7 @@ TEST_F(Conditions, LateConstants) {
   EXPECT_EQ(constants->messages.size(), 1u) << "unchanged constants are not published again";
 }
 
-TEST_F(Conditions, ConstantsNeverComeParamsThatNeedNoneAreToldWithoutCameraInfo) {
+TEST_F(Conditions, WithoutConstantsParamsThatNeedNoneArePublishedWithoutCameraInfo) {
   ASSERT_NO_FATAL_FAILURE(open());
   tracker->send(test::params(1));
   EXPECT_TRUE(counters_are({1}));
@@ -195,7 +195,7 @@ TEST_F(Conditions, ConstantsNeverComeParamsThatNeedNoneAreToldWithoutCameraInfo)
   EXPECT_TRUE(infos->messages.empty());
 }
 
-TEST_F(Conditions, ConstantsOfTheParameterServeUntilOthersAreReceived) {
+TEST_F(Conditions, ConstantsOfTheParameterAreUsedUntilOthersAreReceived) {
   set("constants/image_width", 1280);
   set("constants/image_height", 720);
   set("constants/chip_width", 9.59);
@@ -212,7 +212,7 @@ TEST_F(Conditions, ConstantsOfTheParameterServeUntilOthersAreReceived) {
   EXPECT_TRUE(eventually([this] { return constants->messages.back().image_width == 1920; }));
 }
 
-TEST_F(Conditions, DelayIsTakenOffEveryStamp) {
+TEST_F(Conditions, DelayIsSubtractedFromEveryStamp) {
   set("delay", 5.0);
   ASSERT_NO_FATAL_FAILURE(open());
   const auto before = ::ros::Time::now();
@@ -247,7 +247,7 @@ TEST_F(TakePlayed, TheTimeCodeOfEveryFieldIsPublished) {
   }
 }
 
-TEST_F(Conditions, ABurstArrivesWhole) {
+TEST_F(Conditions, ABurstArrivesCompletely) {
   ASSERT_NO_FATAL_FAILURE(open());
   for (std::uint64_t counter = 1; counter <= 80; ++counter) tracker->send(test::params(counter));
   EXPECT_TRUE(eventually([this] { return params->messages.size() == 80 && transforms->transforms.size() == 80; }));

@@ -38,9 +38,9 @@ bool agree(const sensor_msgs::CameraInfo& one, const sensor_msgs::CameraInfo& ot
          std::equal(one.K.begin(), one.K.end(), other.K.begin(), near);
 }
 
-class CraneThereAndBack : public ::testing::TestWithParam<const char*> {
+class CraneRoundTrip : public ::testing::TestWithParam<const char*> {
  protected:
-  CraneThereAndBack()
+  CraneRoundTrip()
       : sent_("/crane/sent"),
         returned_("/returned/params"),
         crane_info_("/crane/camera_info"),
@@ -142,7 +142,7 @@ class CraneThereAndBack : public ::testing::TestWithParam<const char*> {
   Roslaunch launched_;
 };
 
-TEST_P(CraneThereAndBack, BothCamerasCoincide) {
+TEST_P(CraneRoundTrip, BothCamerasCoincide) {
   ASSERT_TRUE(eventually([this] { return all_come(); })) << launched_.end();
   const auto end = std::chrono::steady_clock::now() + deadline;
   Compared compared;
@@ -158,7 +158,7 @@ TEST_P(CraneThereAndBack, BothCamerasCoincide) {
   EXPECT_GE(compared.with_their_lens, compared.sets * 9 / 10);
 }
 
-TEST(Crane, TakesJointStatesFromElsewhere) {
+TEST(Crane, UsesJointStatesOfAnotherNode) {
   const auto publisher = ::ros::NodeHandle().advertise<sensor_msgs::JointState>("/joint_states", 100);
   Recorder<sensor_msgs::JointState> joint_states("/joint_states");
   Recorder<trk_bridge::CameraParams> returned("/returned/params");
@@ -183,7 +183,7 @@ TEST(Crane, TakesJointStatesFromElsewhere) {
   for (const auto& message : joint_states.messages) EXPECT_EQ(message.position, all_zero.position);
 }
 
-INSTANTIATE_TEST_SUITE_P(Presets, CraneThereAndBack, ::testing::Values("pixotope", "orad"));
+INSTANTIATE_TEST_SUITE_P(Presets, CraneRoundTrip, ::testing::Values("pixotope", "orad"));
 
 }  // namespace
 }  // namespace trk_bridge::test

@@ -63,7 +63,7 @@ class DelayMeter : public NodeTest<nodes::DelayMeter> {
   int frames_ = 0;
 };
 
-TEST_F(DelayMeter, MeasuresTheDelayAndSaysItUntilThereIsAnother) {
+TEST_F(DelayMeter, MeasuresTheDelayAndReportsItUntilThereIsAnother) {
   ASSERT_TRUE(starts());
   EXPECT_TRUE(diagnostics.reports(status_name(), 1, "nothing on " + name_space + "/params"));
   advertise();

@@ -46,7 +46,7 @@ TEST_P(Launched, PublishesInTheNamespaceOfItsCamera) {
   }
 }
 
-TEST(LaunchedMarkers, AreDrawnWhereTheyWereAskedFor) {
+TEST(LaunchedMarkers, AreDrawnIfRequested) {
   Recorder<visualization_msgs::MarkerArray> markers("/launched_nodelet/trk_to_ros/markers");
   ASSERT_TRUE(eventually([&] { return !markers.messages.empty(); }));
   const auto& axis = markers.messages.front().markers.at(1);

@@ -91,7 +91,7 @@ class Markers : public TrkToRosTest {
   std::optional<Tracker> tracker;
 };
 
-TEST_F(Markers, AllFourOfBothCamerasAreOnOneTopicAndFallOnTheCornersOfTheirImages) {
+TEST_F(Markers, AllFourOfBothCamerasAreOnOneTopicAndMatchTheCornersOfTheirImages) {
   tracker->send(bent(1, 1));
   auto other = bent(1, 2);
   other.fov = 12;
@@ -153,7 +153,7 @@ TEST_F(Markers, AreRemovedWithWhatTheyShow) {
   EXPECT_TRUE(eventually([&] { return action(name + "/frustum") == Marker::ADD; }));
 }
 
-TEST_F(Markers, OfALensThatIsTooWideToBeDrawnAreNotThereAndWhyIsTold) {
+TEST_F(Markers, OfALensThatIsTooWideAreNotDrawnAndTheReasonIsReported) {
   const std::string& name = cameras[0];
   tracker->send(bent(1, 1));
   ASSERT_TRUE(eventually([&] { return action(name + "/frustum") == Marker::ADD; }));

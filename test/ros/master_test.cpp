@@ -63,7 +63,7 @@ class Master : public NodeProcessTest {
   std::uint64_t counter = 0;
 };
 
-TEST_F(Master, ThatIsRestartedIsShownByNodesAndNodeletsWhichGoOn) {
+TEST_F(Master, ARestartIsReportedByNodesAndNodeletsThatContinue) {
   ASSERT_TRUE(starts());
   // In the process of the test as in that of a nodelet manager.
   ::ros::param::set(name_space + "/other/source", any_udp_port);

@@ -38,7 +38,7 @@ TEST_F(OutgoingRefused, AnUnknownParameterIsNamedWithTheNearestKnown) {
   EXPECT_THAT(refusal(), HasSubstr("~sink = 'udp://127.0.0.1:7000': unknown parameter, nearest is sinks"));
 }
 
-TEST_F(OutgoingRefused, AnAddressThatNothingCanBeSentToIsNamed) {
+TEST_F(OutgoingRefused, AnAddressThatCannotBeSentToIsNamed) {
   set_sinks({"udp://0.0.0.0:7000"});
   EXPECT_THAT(refusal(), HasSubstr("0.0.0.0"));
 }
@@ -51,7 +51,7 @@ class OutgoingStartup : public NodeProcessTest {
   const Receiver receiver;
 };
 
-TEST_F(OutgoingStartup, WithoutSinksItEndsAndSaysWhatIsMissing) {
+TEST_F(OutgoingStartup, WithoutSinksItEndsAndNamesWhatIsMissing) {
   ::ros::param::del(node_name + "/sinks");
   EXPECT_THAT(refusal(), AllOf(HasSubstr("~sinks = []"), HasSubstr("must be given")));
 }
@@ -61,7 +61,7 @@ TEST_F(OutgoingStartup, SigintEndsItPromptly) {
   EXPECT_LT(interrupted(), std::chrono::seconds(3));
 }
 
-TEST_F(OutgoingStartup, SigintEndsItPromptlyWhileItLooksAtTf) {
+TEST_F(OutgoingStartup, SigintEndsItPromptlyWhileItReadsTf) {
   set("input", "tf");
   set("chip_width", 9.59);
   set("chip_height", 5.39);
@@ -90,7 +90,7 @@ class FromParams : public RosToTrkTest {
   Receiver receiver;
 };
 
-TEST_F(FromParams, WhatNeedsNoChangeGoesOutAsItCame) {
+TEST_F(FromParams, RecordsThatNeedNoChangeAreSentUnchanged) {
   ASSERT_NO_FATAL_FAILURE(open({receiver.url()}));
   EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::STALE, "no messages on " + name_space + "/params"));
   auto record = params(1000, 7);
@@ -103,7 +103,7 @@ TEST_F(FromParams, WhatNeedsNoChangeGoesOutAsItCame) {
   EXPECT_TRUE(diagnostics.becomes(status_name(receiver.url()), "sent", "1"));
 }
 
-TEST_F(FromParams, ConstantsAreRepeatedAndBearTheIdOfTheParams) {
+TEST_F(FromParams, ConstantsAreRepeatedWithTheIdOfTheParams) {
   ASSERT_NO_FATAL_FAILURE(open({receiver.url() + "?constants_period=0.1"}));
   ASSERT_NO_FATAL_FAILURE(publish(constants(1920)));
   std::uint64_t counter = 0;
@@ -118,7 +118,7 @@ TEST_F(FromParams, ConstantsAreRepeatedAndBearTheIdOfTheParams) {
   }
 }
 
-TEST_F(FromParams, APresetIsTheReceiversFormatAndLeavesOutAnIdThatItCannotTake) {
+TEST_F(FromParams, APresetSetsTheFormatAndOmitsAnIdThatTheReceiverCannotAccept) {
   set("preset", "unreal_trackmen");
   set("id", 5);
   ASSERT_NO_FATAL_FAILURE(open({receiver.url()}));
@@ -136,7 +136,7 @@ TEST_F(FromParams, OrderAndCountersOfABurstAreKept) {
   for (std::size_t i = 0; i < 80; ++i) EXPECT_EQ(receiver.params[i].counter, i + 1);
 }
 
-TEST_F(FromParams, WhatIsNoCameraIsNotSent) {
+TEST_F(FromParams, InvalidCamerasAreNotSent) {
   ASSERT_NO_FATAL_FAILURE(open({receiver.url()}));
   auto bad = params(1);
   bad.k1 = std::nan("");
@@ -177,7 +177,7 @@ TEST_F(FromParams, ARemovedSegmentIsRecreatedWithItsConstants) {
   EXPECT_EQ(receiver.params.size(), counter) << "not one is missing";
 }
 
-TEST_F(FromParams, AMessageIsDelayedByItsStamp) {
+TEST_F(FromParams, AMessageIsDelayedAccordingToItsStamp) {
   set("delay", 0.05);
   ASSERT_NO_FATAL_FAILURE(open({receiver.url(), receiver.url() + "?delay=0&id=9"}));
   std::uint64_t counter = 0;
@@ -212,7 +212,7 @@ class OnAFullDisk : public NodeProcessTest {
   Receiver receiver;
 };
 
-TEST_F(OnAFullDisk, ASinkCostsNoOtherSinkAnythingAndIsOverWhenThereIsRoom) {
+TEST_F(OnAFullDisk, AFailedSinkDoesNotAffectOthersAndRecovers) {
   // The limit that stands for the full disk must not end the node.
   ::signal(SIGXFSZ, SIG_IGN);
   const std::string file = "file:" + folder / "take.trk";

@@ -65,7 +65,7 @@ class FromTf : public RosToTrkTest {
   double at = 0;
 };
 
-TEST_F(FromTf, NothingIsSentWithoutTfOrALensAndItIsToldWhy) {
+TEST_F(FromTf, NothingIsSentWithoutTfOrALensAndTheReasonIsReported) {
   ASSERT_NO_FATAL_FAILURE(open());
   EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::STALE, "nothing sent yet: tf: "));
   EXPECT_TRUE(eventually([&] {
@@ -111,7 +111,7 @@ TEST_F(FromTf, StaleTfIsNeverSentAgain) {
   }));
 }
 
-TEST_F(FromTf, PoseLensConstantsAndFocus) {
+TEST_F(FromTf, PoseLensConstantsAndFocusAreSent) {
   set("id", 7);
   ASSERT_NO_FATAL_FAILURE(open());
   info_publisher.publish(info());
@@ -133,7 +133,7 @@ TEST_F(FromTf, PoseLensConstantsAndFocus) {
   EXPECT_EQ(receiver.constants.front(), (wire::CameraConstants{7, 1920, 1080, 0, 0, 0, 0, 9.6, 5.4, 9.6, 5.4}));
 }
 
-TEST_F(FromTf, SetsComeNoFasterThanTheRateHoweverFastTfIs) {
+TEST_F(FromTf, SetsAreNotFasterThanTheRate) {
   constexpr double rate = 20;
   ASSERT_NO_FATAL_FAILURE(open(rate));
   info_publisher.publish(info());
@@ -177,7 +177,7 @@ class FromTfInTime : public FromTf {
   std::vector<trk_bridge::CameraParams> messages;
 };
 
-TEST_F(FromTfInTime, ADelayIsExactByTheStampsOfTf) {
+TEST_F(FromTfInTime, ADelayIsExactAccordingToTheStampsOfTf) {
   set("delay", 0.05);
   ASSERT_NO_FATAL_FAILURE(open(50));
   info_publisher.publish(info());
@@ -209,7 +209,7 @@ TEST_F(FromTfInTime, TheAgeIsTheSameAfterEveryStart) {
   }
 }
 
-TEST_F(FromTfInTime, AtTheRateOfTfEveryPoseIsSentAsItComes) {
+TEST_F(FromTfInTime, AtTheRateOfTfEveryPoseIsSentOnArrival) {
   set("rate", std::string("tf"));
   set_sinks({receiver.url()});
   set("input", "tf");

@@ -193,7 +193,7 @@ TEST_F(Outputs, ASegmentOfUnknownSize) {
   end();
 }
 
-TEST_F(Outputs, SegmentsThatComeAndGoWithAnythingInThem) {
+TEST_F(Outputs, SegmentsThatAppearAndDisappearWithAnyContent) {
   FreeSlot slot;
   ASSERT_NO_FATAL_FAILURE(start_with("shm:" + std::to_string(slot.number())));
   std::atomic<bool> done{false};
@@ -236,7 +236,7 @@ TEST_F(Outputs, AFullDisk) {
   ::umount2(folder.path().c_str(), MNT_DETACH);
 }
 
-TEST_F(Outputs, ADiskWithoutRoomFromTheStart) {
+TEST_F(Outputs, ADiskThatIsFullFromTheStart) {
   ASSERT_EQ(::mount("trk_bridge_test", folder.path().c_str(), "tmpfs", 0, "size=16k"), 0);
   std::ofstream(folder / "filler") << std::string(65536, 'x');
   ASSERT_NO_FATAL_FAILURE(start_with("file:" + folder / "take.trk"));
@@ -261,7 +261,7 @@ TEST_F(Outputs, StorageThatDoesNotAnswer) {
   EXPECT_THAT(said, HasSubstr(" queued records are lost"));
 }
 
-TEST_F(Outputs, AFifoThatNobodyReadsAnyMore) {
+TEST_F(Outputs, AFifoWithoutReader) {
   const std::string fifo = folder / "fifo";
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
   const transport::Descriptor reader(::open(fifo.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
@@ -283,7 +283,7 @@ TEST_F(Outputs, AHostWithoutRoute) {
   end();
 }
 
-TEST_F(Outputs, ATakeOfThatName) {
+TEST_F(Outputs, ATakeThatExists) {
   write_text(folder / "take.trk", "precious");
   ASSERT_NO_FATAL_FAILURE(start_with("file:" + folder / "take.trk"));
   EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "take.trk: cannot be written: it exists; to overwrite it, use"));
@@ -297,7 +297,7 @@ TEST_F(Outputs, ATakeOfThatName) {
   EXPECT_EQ(take.params.back().counter, sent);
 }
 
-TEST_F(Outputs, APlaceThatIsNotThere) {
+TEST_F(Outputs, AMissingFolder) {
   ASSERT_NO_FATAL_FAILURE(start_with("file:" + folder / "absent/take.trk"));
   EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "absent/take.trk: cannot be written: the system refused: No such"));
   expect_live(50);

@@ -46,7 +46,7 @@ class Recording : public TrkToRosTest {
   TemporaryDirectory directory;
 };
 
-TEST_F(Recording, OfARunningNodeIsTheTakeThatWasSent) {
+TEST_F(Recording, OfARunningNodeIsTheSentTake) {
   set("source", any_udp_port);
   set("format", "as_received");
   ASSERT_TRUE(starts());

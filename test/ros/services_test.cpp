@@ -45,7 +45,7 @@ class LiveInput : public TrkToRosTest {
   void SetUp() override { set("source", any_udp_port); }
 };
 
-TEST_F(LiveInput, TheDelayOfStampsCanBeChanged) {
+TEST_F(LiveInput, TheDelayOfStampsCanBeChangedLive) {
   set("stamp", "arrival");
   ASSERT_TRUE(starts());
   const Tracker tracker(port());
@@ -105,7 +105,7 @@ TEST_F(LiveInput, WhatIsPublishedCanBeSwitchedOffAndOnAgain) {
   }));
 }
 
-TEST_F(LiveInput, WhatWasNotStartedCannotBeSwitchedOn) {
+TEST_F(LiveInput, OutputsDisabledAtStartCannotBeSwitchedOn) {
   set("publish_tf", false);
   ASSERT_TRUE(starts());
   const auto response = call<std_srvs::SetBool>(node_name + "/set_publish_tf", true);
@@ -115,7 +115,7 @@ TEST_F(LiveInput, WhatWasNotStartedCannotBeSwitchedOn) {
 
 class LiveOutput : public RosToTrkTest {};
 
-TEST_F(LiveOutput, DelayAndLeadCanBeChangedWhereATimerSends) {
+TEST_F(LiveOutput, DelayAndLeadCanBeChangedIfATimerSends) {
   const Receiver receiver, with_own;
   set_sinks({receiver.url(), with_own.url() + "?delay=0.01"});
   set("pace", true);
@@ -127,7 +127,7 @@ TEST_F(LiveOutput, DelayAndLeadCanBeChangedWhereATimerSends) {
   EXPECT_THAT(refusal_of(node_name + "/set_lead", 0.1), HasSubstr("must be 0 to 0.04 seconds"));
 }
 
-TEST_F(LiveOutput, WhereNoTimerSendsTheReasonIsGiven) {
+TEST_F(LiveOutput, WithoutATimerTheReasonIsGiven) {
   const Receiver receiver;
   set_sinks({receiver.url()});
   ASSERT_TRUE(starts());

@@ -62,7 +62,7 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
   EXPECT_TRUE(sink->close());
 }
 
-TEST_F(SeveralCameras, OfTwoHundredAndFiftySixThatSendTogetherNoneLosesATransform) {
+TEST_F(SeveralCameras, OfTwoHundredAndFiftySixSimultaneousCamerasNoneLosesATransform) {
   constexpr int count = 256, bursts = 10;
   const auto frame = [](int i) { return "many" + std::to_string(i); };
   XmlRpc::XmlRpcValue tree;
@@ -105,7 +105,7 @@ class AtTheEndOfATake : public NodeProcessTest {
   const TemporaryDirectory folder;
 };
 
-TEST_F(AtTheEndOfATake, TheNodeLivesOnUntilItIsInterrupted) {
+TEST_F(AtTheEndOfATake, TheNodeRunsUntilItIsInterrupted) {
   const std::string path = folder / "take.trk";
   {
     auto sink = endpoints::open_sink("file:" + path);

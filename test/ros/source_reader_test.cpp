@@ -127,12 +127,12 @@ class SourceReader : public CameraTest {
   ::ros::Subscriber tf_;
 };
 
-TEST_F(SourceReader, WhatArrivesTogetherIsOneTransformMessageAndComesFirst) {
+TEST_F(SourceReader, SamplesThatArriveTogetherAreOneTransformMessageThatComesFirst) {
   read({set(1, 1, true), set(1, 2, true), set(1, 3, false)}, 4);
   EXPECT_THAT(came, ElementsAre("tf 1 2 3", "params 1 1", "params 2 1", "params 3 1"));
 }
 
-TEST_F(SourceReader, WhatComesAloneDoesNotWait) {
+TEST_F(SourceReader, ASingleSampleDoesNotWait) {
   read({set(1, 1, false), set(1, 2, false)}, 4);
   EXPECT_THAT(came, ElementsAre("tf 1", "params 1 1", "tf 2", "params 2 1"));
 }
@@ -142,7 +142,7 @@ TEST_F(SourceReader, ASecondSampleOfACameraComesAfterTheFirst) {
   EXPECT_THAT(came, ElementsAre("tf 1 2", "params 1 1", "params 2 1", "tf 1 2", "params 1 2", "params 2 2"));
 }
 
-TEST_F(SourceReader, WhatNeedsAFitOfTheLensComesLast) {
+TEST_F(SourceReader, MessagesThatNeedALensFitComeLast) {
   listen_to_camera_infos();
   // The second constants are of the second field of camera 1 only.
   read({{constants(720, 1), true},
@@ -156,17 +156,17 @@ TEST_F(SourceReader, WhatNeedsAFitOfTheLensComesLast) {
                                 "tf 1", "params 1 2", "camera_info 1 of 1920"));
 }
 
-TEST_F(SourceReader, NothingWaitsForASampleThatDoesNotCome) {
+TEST_F(SourceReader, NothingWaitsForAMissingSample) {
   read({set(1, 1, true), set(1, 2, true)}, 3);
   EXPECT_THAT(came, ElementsAre("tf 1 2", "params 1 1", "params 2 1"));
 }
 
-TEST_F(SourceReader, ARecordOfNoCameraEndsWhatArrivedTogether) {
+TEST_F(SourceReader, ARecordOfNoCameraEndsAGroup) {
   read({set(1, 1, true), set(1, 9, false)}, 2);
   EXPECT_THAT(came, ElementsAre("tf 1", "params 1 1"));
 }
 
-TEST_F(SourceReader, ADuplicateAndKnownConstantsSplitNothing) {
+TEST_F(SourceReader, ADuplicateAndKnownConstantsDoNotSplitAGroup) {
   read({{constants(720, 2), false},
         set(1, 1, true),
         {constants(720, 2), true},
@@ -179,7 +179,7 @@ TEST_F(SourceReader, ADuplicateAndKnownConstantsSplitNothing) {
 }
 
 /// roscpp numbers only the messages that it serialises.
-TEST_F(SourceReader, SubscribersOfTheProcessGetMessagesAsTheyAre) {
+TEST_F(SourceReader, SubscribersInTheProcessGetMessagesByPointer) {
   std::deque<Arrival> arrivals;
   for (std::uint64_t counter = 1; counter <= 50; ++counter) arrivals.push_back(set(counter, 1, false));
   read(std::move(arrivals), 100);

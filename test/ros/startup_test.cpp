@@ -13,7 +13,7 @@ class Startup : public NodeProcessTest {
   Startup() : NodeProcessTest(TRK_TO_ROS) {}
 };
 
-TEST_F(Startup, WithoutASourceItEndsAndSaysWhatIsMissing) {
+TEST_F(Startup, WithoutASourceItEndsAndNamesWhatIsMissing) {
   EXPECT_THAT(refusal(), AllOf(HasSubstr("~source = ''"), HasSubstr("must be given")));
 }
 
@@ -43,14 +43,14 @@ TEST_F(Refused, AWrongValueIsNamedWithWhatIsAllowed) {
   EXPECT_THAT(refusal(), AllOf(HasSubstr("~delay = -1"), HasSubstr("0 to 60 seconds")));
 }
 
-TEST_F(Startup, APortInUseIsToldWithItsNumber) {
+TEST_F(Startup, APortInUseIsReportedWithItsNumber) {
   const PlainSocket taken;
   const std::string port = std::to_string(taken.port());
   set("source", "udp://127.0.0.1:" + port);
   EXPECT_THAT(refusal(), HasSubstr(port));
 }
 
-TEST_F(Startup, TheLineThatDeletesAMistypedParameterMakesTheNextStartWork) {
+TEST_F(Startup, TheRemedyForAMistypedParameterMakesTheNextStartWork) {
   set("source", any_udp_port);
   Program({TRK_TO_ROS, "__ns:=" + name_space, "_formt:=euler"}).rest_of_err();
   const std::string said = refusal();

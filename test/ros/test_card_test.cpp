@@ -274,7 +274,7 @@ void expect_lines(const Agreement& lines) {
   EXPECT_GT(lines.without_distortion, 10 * straight_limit) << "pixels: else rectifying was not tested";
 }
 
-TEST_F(TestCard, IsWhereCameraInfoAndTfSayWhileTheCameraMoves) {
+TEST_F(TestCard, MatchesCameraInfoAndTfWhileTheCameraMoves) {
   set_card("rate", 12.5);
   ASSERT_NO_FATAL_FAILURE(start_card());
   // Pan, roll and zoom at once: what is not of one moment does not agree.
@@ -353,7 +353,7 @@ INSTANTIATE_TEST_SUITE_P(Sights, TestCardAtRest,
                          ::testing::Values(std::array{0.0, -4.0, 0.0, 1.0}, std::array{14.0, -9.0, 11.0, 0.8},
                                            std::array{-5.0, -2.0, -20.0, 0.0}));
 
-TEST_F(TestCard, PairsEveryRectifiedImageWithACameraInfoOfItsOwn) {
+TEST_F(TestCard, PairsEveryRectifiedImageWithItsCameraInfo) {
   Recorder<sensor_msgs::Image> images(name_space + "/rectified/image");
   Recorder<sensor_msgs::CameraInfo> infos(name_space + "/rectified/camera_info");
   ASSERT_NO_FATAL_FAILURE(start_card());
@@ -377,7 +377,7 @@ TEST_F(TestCard, PairsEveryRectifiedImageWithACameraInfoOfItsOwn) {
   }
 }
 
-TEST_F(TestCard, MarksTheStudioForWhoeverComesLate) {
+TEST_F(TestCard, PublishesItsMarkersForLateSubscribers) {
   ASSERT_NO_FATAL_FAILURE(start_card());
   EXPECT_EQ(marker("points").header.frame_id, "studio");
   EXPECT_EQ(marker("points").header.stamp, ::ros::Time()) << "valid at any time";
@@ -406,7 +406,7 @@ TEST_F(TestCard, KeepsItsRateAndDrawsTheNewestParams) {
   EXPECT_LE(static_cast<double>(images_->messages.size()), 5 * ran.count() + 2) << "never more, the first one apart";
 }
 
-TEST_F(TestCard, SaysWhenTheMachineIsTooSlow) {
+TEST_F(TestCard, ReportsWhenTheMachineIsTooSlow) {
   const Recorder<rosgraph_msgs::Log> log("/rosout");
   // No machine draws and rectifies a picture of this size within 4 ms.
   set_card("rate", 240);
@@ -420,7 +420,7 @@ TEST_F(TestCard, SaysWhenTheMachineIsTooSlow) {
       << "it says nothing of the kind";
 }
 
-TEST_F(TestCard, SaysThatThereIsNoPictureWithoutConstants) {
+TEST_F(TestCard, ReportsThatThereIsNoPictureWithoutConstants) {
   const Recorder<rosgraph_msgs::Log> log("/rosout");
   ASSERT_NO_FATAL_FAILURE(start_card());
   const Repeating sending(50, [this] {
@@ -436,7 +436,7 @@ TEST_F(TestCard, SaysThatThereIsNoPictureWithoutConstants) {
   EXPECT_TRUE(images_->messages.empty());
 }
 
-TEST_F(TestCard, RefusesParametersThatItDoesNotKnow) {
+TEST_F(TestCard, RefusesUnknownParameters) {
   set_card("spacign", 2);
   EXPECT_THAT(error_of<ros1::ParameterError>([this] { make_card(); }),
               ::testing::AllOf(::testing::HasSubstr("spacign"), ::testing::HasSubstr("spacing")));

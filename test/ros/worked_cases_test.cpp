@@ -114,7 +114,7 @@ class WorkedCases : public TrkToRosTest, public ::testing::WithParamInterface<wi
   ::ros::Time sent, arrived;
 };
 
-TEST_P(WorkedCases, ArriveAsTheyWereMeant) {
+TEST_P(WorkedCases, ArriveWithTheRightMeaning) {
   ASSERT_TRUE(eventually([this] { return !statics->transforms.empty(); }));
   std::uint64_t counter = 1000;
   ::ros::Time before;

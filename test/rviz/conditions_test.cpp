@@ -34,7 +34,7 @@ class Conditions : public ::testing::Test {
   }
 };
 
-TEST_F(Conditions, TheDialogueShowsOurIconAndADescription) {
+TEST_F(Conditions, TheDialogShowsOurIconAndADescription) {
   auto& factory = *window().manager().getDisplayFactory();
   const QString id = "trk_bridge/Camera";
   ASSERT_TRUE(factory.getDeclaredClassIds().contains(id));
@@ -59,7 +59,7 @@ TEST_F(Conditions, AddedAtRunTimeItWaitsForItsTopicAndThenDraws) {
   }
 }
 
-TEST_F(Conditions, WithTheTopicTheCameraChanges) {
+TEST_F(Conditions, TheCameraChangesWithTheTopic) {
   const auto left = plain_camera(-1.5, 10), right = plain_camera(1.5, -20);
   const PublishedCamera one(unique("left"), left), other(unique("right"), right);
   auto& display = add_frustum("Camera", one.info_topic());
@@ -117,7 +117,7 @@ TEST_F(Conditions, WithoutATimeoutTheLastOfACameraStays) {
   EXPECT_TRUE(becomes(tracked)) << statuses(display);
 }
 
-TEST_F(Conditions, WithoutATransformNothingIsDrawnAndTfsReasonIsTold) {
+TEST_F(Conditions, WithoutATransformNothingIsDrawnAndTheReasonOfTfIsShown) {
   const auto tracked = plain_camera();
   PublishedCamera camera(unique("placeless"), tracked);
   camera.publishes({true, true, false});
@@ -132,7 +132,7 @@ TEST_F(Conditions, WithoutATransformNothingIsDrawnAndTfsReasonIsTold) {
   EXPECT_TRUE(window().tells(display, "Transform", error));
 }
 
-TEST_F(Conditions, WithoutConstantsItSaysSo) {
+TEST_F(Conditions, WithoutConstantsItReportsThat) {
   PublishedCamera camera(unique("unknown"), plain_camera());
   camera.publishes({false, true, true});
   const auto& display = add_frustum("Camera", camera.info_topic(), camera.params_topic());
@@ -144,7 +144,7 @@ TEST_F(Conditions, WithoutConstantsItSaysSo) {
   EXPECT_TRUE(window().tells(display, "Constants", ok));
 }
 
-TEST_F(Conditions, LensesThatNoCameraHasAreToldAndNotDrawn) {
+TEST_F(Conditions, InvalidLensesAreReportedAndNotDrawn) {
   using Info = sensor_msgs::CameraInfo;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   const auto tracked = plain_camera();
@@ -176,7 +176,7 @@ TEST_F(Conditions, LensesThatNoCameraHasAreToldAndNotDrawn) {
   }
 }
 
-TEST_F(Conditions, EveryPartIsSeenAndCanBeSwitchedOff) {
+TEST_F(Conditions, EveryPartIsVisibleAndCanBeSwitchedOff) {
   PublishedCamera camera(unique("whole"), plain_camera());
   auto& display = window().add("trk_bridge/Camera", "Whole");
   property(display, {"Camera Info Topic"}).setValue(QString::fromStdString(camera.info_topic()));
@@ -200,7 +200,7 @@ TEST_F(Conditions, EveryPartIsSeenAndCanBeSwitchedOff) {
   })) << "something is drawn although all is switched off";
 }
 
-TEST_F(Conditions, ACameraThatStandsIsSeenFromEverySide) {
+TEST_F(Conditions, ACameraAtRestIsVisibleFromEverySide) {
   const auto tracked = plain_camera();
   const PublishedCamera camera(unique("standing"), tracked);
   const auto& display = add_frustum("Camera", camera.info_topic());
@@ -211,7 +211,7 @@ TEST_F(Conditions, ACameraThatStandsIsSeenFromEverySide) {
   }
 }
 
-TEST_F(Conditions, ATrailShowsTheWayItCameAndFades) {
+TEST_F(Conditions, ATrailShowsThePathAndFades) {
   auto tracked = plain_camera(-1);
   PublishedCamera camera(unique("trailing"), tracked);
   auto& display = add_frustum("Camera", camera.info_topic());
@@ -236,7 +236,7 @@ TEST_F(Conditions, ATrailShowsTheWayItCameAndFades) {
   EXPECT_TRUE(vanishes(green)) << "it has stood here for longer than that";
 }
 
-TEST_F(Conditions, TheFixedFrameMayBeAnother) {
+TEST_F(Conditions, TheFixedFrameCanChange) {
   const auto tracked = plain_camera();
   const PublishedCamera camera(unique("framed"), tracked);
   const auto& display = add_frustum("Camera", camera.info_topic());
@@ -276,7 +276,7 @@ TEST_F(Conditions, TheFixedFrameMayBeAnother) {
   EXPECT_TRUE(becomes(tracked)) << statuses(display);
 }
 
-TEST_F(Conditions, DisabledItIsGoneAndEnabledItIsBack) {
+TEST_F(Conditions, DisablingHidesItAndEnablingShowsIt) {
   const auto tracked = plain_camera();
   const PublishedCamera camera(unique("switched"), tracked);
   auto& display = add_frustum("Camera", camera.info_topic(), camera.params_topic());
@@ -288,7 +288,7 @@ TEST_F(Conditions, DisabledItIsGoneAndEnabledItIsBack) {
   }
 }
 
-TEST_F(Conditions, DisplaysMayBeRemovedWhileTheirMessagesCome) {
+TEST_F(Conditions, DisplaysCanBeRemovedWhileMessagesArrive) {
   const auto tracked = plain_camera();
   const PublishedCamera camera(unique("busy"), tracked, /*rate=*/500);
   const auto& staying = add_frustum("Staying", camera.info_topic(), camera.params_topic());

@@ -114,7 +114,7 @@ class Frustum : public TrkToRosTest, public ::testing::WithParamInterface<std::t
   std::unique_ptr<Repeating> sending;
 };
 
-TEST_P(Frustum, IsWhereTheTrackerSaysItIsAndNowhereElse) {
+TEST_P(Frustum, IsAtThePoseOfTheTrackerAndNowhereElse) {
   const auto& [pose, lens] = GetParam();
   const auto tracked = camera_of(pose, lens);
   look_at(tracked, lens.far);

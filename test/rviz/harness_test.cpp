@@ -14,7 +14,7 @@ class Harness : public ::testing::Test {
   void SetUp() override { window().load(TRK_BRIDGE_RVIZ_TEST_CONFIGURATION); }
 };
 
-TEST_F(Harness, OurOwnProjectionIsTheRenderers) {
+TEST_F(Harness, OurProjectionIsThatOfTheRenderer) {
   const std::vector<OrbitView::Place> places{
       {{0, 0, 0}, 10, -1.2, 0.4}, {{1, -2, 3}, 4, 2.5, -0.9}, {{0, 0, 0}, 7, 0, 0}};
   for (const auto& place : places) {
@@ -28,7 +28,7 @@ TEST_F(Harness, OurOwnProjectionIsTheRenderers) {
   }
 }
 
-TEST_F(Harness, LinesOfRvizAreSeenWhereTheyAreAndNowhereElse) {
+TEST_F(Harness, LinesOfRvizAreFoundWhereTheyAreAndNowhereElse) {
   ::ros::NodeHandle ros;
   auto publisher = ros.advertise<visualization_msgs::Marker>("/harness/marker", 1, /*latch=*/true);
   visualization_msgs::Marker marker;

@@ -34,7 +34,7 @@ class BagCommandTest : public testing::Test {
   std::string err_text;
 };
 
-TEST_F(BagCommandTest, GoesBothWays) {
+TEST_F(BagCommandTest, ConvertsInBothDirections) {
   EXPECT_EQ(run({take, bag, "--camera", "crane1", "--date", "2026-11-22"}), 0) << err_text;
   EXPECT_THAT(err_text, HasSubstr("2259 fields of camera crane1"));
   EXPECT_EQ(run({bag, directory / "back.trk"}), 0) << err_text;
@@ -93,7 +93,7 @@ TEST_F(OnAFullDisk, ATakeIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(left, "");
 }
 
-TEST_F(BagCommandTest, ALineThatIsNotSoundIsAnErrorAndLeavesNothing) {
+TEST_F(BagCommandTest, AMalformedLineIsAnErrorAndLeavesNothing) {
   const std::string bad = directory / "bad.trk";
   test::write_text(bad, test::read_text(take) + "oops\n");
   const std::string text = test::read_text(bad);
@@ -119,7 +119,7 @@ TEST_F(BagCommandTest, WrongOptionsAreUsageErrors) {
   EXPECT_EQ(run({bag, directory / "other.trk", "--start", "5"}), 2);
 }
 
-TEST_F(BagCommandTest, WhatCannotBeReadIsNamed) {
+TEST_F(BagCommandTest, FilesThatCannotBeReadAreNamed) {
   EXPECT_EQ(run({directory / "none.trk", bag}), 1);
   EXPECT_THAT(err_text, HasSubstr("none.trk"));
   EXPECT_EQ(run({directory / "none.bag", directory / "x.trk"}), 1);

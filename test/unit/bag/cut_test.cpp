@@ -50,7 +50,7 @@ class CutBag : public BagTest {
   const std::vector<std::string> all = bits_of(sent.params);
 };
 
-TEST_F(CutBag, GivesEveryWholeRecordWhereverItEnds) {
+TEST_F(CutBag, GivesEveryCompleteRecordForAnyLength) {
   const std::string bytes = bag_text("none");
   std::size_t before = 0;
   for (std::size_t size = 0; size < bytes.size(); size += 37'077) {
@@ -64,7 +64,7 @@ TEST_F(CutBag, GivesEveryWholeRecordWhereverItEnds) {
   EXPECT_THAT(err.str(), HasSubstr("cut.bag is cut short: "));
 }
 
-TEST_F(CutBag, EveryCutWithinARecordIsTheSameAsBeforeIt) {
+TEST_F(CutBag, ATruncatedRecordIsIgnored) {
   const std::string bytes = bag_text("none");
   const std::size_t from = bytes.size() / 3;
   std::size_t steps = 0;
@@ -78,7 +78,7 @@ TEST_F(CutBag, EveryCutWithinARecordIsTheSameAsBeforeIt) {
   EXPECT_GE(steps, 1u);
 }
 
-TEST_F(CutBag, CompressedChunksGiveWhatCanBeUnpacked) {
+TEST_F(CutBag, TruncatedCompressedChunksGiveWhatCanBeUnpacked) {
   for (const char* compression : {"bz2", "lz4"}) {
     const std::string bytes = bag_text(compression);
     std::size_t before = 0;
@@ -92,7 +92,7 @@ TEST_F(CutBag, CompressedChunksGiveWhatCanBeUnpacked) {
   }
 }
 
-TEST_F(CutBag, ARecorderThatDiedLeavesItsMessages) {
+TEST_F(CutBag, MessagesOfACrashedRecorderAreRead) {
   // Compressed ones reach the disk a chunk of 768 KiB at a time.
   const std::vector<wire::CameraParams> long_take = some_fields(6000);
   const auto long_bits = bits_of(long_take);
@@ -152,7 +152,7 @@ TEST_F(CutBag, DamageNeverCrashes) {
   }
 }
 
-TEST_F(CutBag, WhatIsNoBagIsRefused) {
+TEST_F(CutBag, FilesThatAreNotBagsAreRefused) {
   write_text(directory / "cut.bag", "DMC01\n");
   EXPECT_THAT(refusal(directory / "cut.bag"), HasSubstr("not a bag"));
   write_text(directory / "cut.bag", "#ROSBAG V2.0\n");

@@ -95,7 +95,7 @@ class DelayOfBag : public BagTest {
   std::optional<SomeBag> bag_;
 };
 
-TEST_F(DelayOfBag, IsFoundAndPrintedInAllForms) {
+TEST_F(DelayOfBag, IsMeasuredAndPrintedInAllForms) {
   put_constants();
   put_params();
   put_video();
@@ -128,7 +128,7 @@ TEST_F(DelayOfBag, ColourAndCompressionDoNotMatter) {
   EXPECT_NEAR(measured().delay, delay, 0.001);
 }
 
-TEST_F(DelayOfBag, WhatIsMissingIsNamed) {
+TEST_F(DelayOfBag, MissingTopicsAreNamed) {
   put_params();
   EXPECT_THAT(refusal(), AllOf(HasSubstr("video.bag: "), HasSubstr("no topic of type sensor_msgs/Image")));
 }
@@ -139,7 +139,7 @@ TEST_F(DelayOfBag, ConstantsAreNeeded) {
   EXPECT_THAT(refusal(), HasSubstr("there is no message on /crane1/constants"));
 }
 
-TEST_F(DelayOfBag, TheVideoIsTheCamerasOwnOrTheOneThatIsNamed) {
+TEST_F(DelayOfBag, TheVideoIsThatOfTheCameraOrTheNamedOne) {
   put_constants();
   put_params();
   put_video("/left/image");
@@ -161,7 +161,7 @@ TEST_F(DelayOfBag, FramesNeedStamps) {
   EXPECT_THAT(refusal(), HasSubstr("a message of /crane1/image_raw has no stamp"));
 }
 
-TEST_F(DelayOfBag, WhatIsNoPictureIsRefused) {
+TEST_F(DelayOfBag, InvalidPicturesAreRefused) {
   put_constants();
   put_params();
   sensor_msgs::Image image;
@@ -171,7 +171,7 @@ TEST_F(DelayOfBag, WhatIsNoPictureIsRefused) {
   EXPECT_THAT(refusal(), HasSubstr("a message of /crane1/image_raw is no picture"));
 }
 
-TEST_F(DelayOfBag, WithoutMotionTheExitCodeSaysSo) {
+TEST_F(DelayOfBag, WithoutMotionTheExitCodeIsFailure) {
   put_constants();
   trk_bridge::CameraParams message;
   for (int i = 0; i < 300; ++i) {
@@ -191,7 +191,7 @@ TEST_F(DelayOfBag, WithoutMotionTheExitCodeSaysSo) {
   EXPECT_THAT(err_text, HasSubstr("delay.svg is not drawn"));
 }
 
-TEST_F(DelayOfBag, WrongUseIsRefused) {
+TEST_F(DelayOfBag, WrongArgumentsAreRefused) {
   EXPECT_EQ(trk({closed(), "--plot", "delay.png"}).second, 2);
   EXPECT_THAT(err_text, HasSubstr("must end in .svg"));
   EXPECT_EQ(trk({closed(), "--most", "0"}).second, 2);

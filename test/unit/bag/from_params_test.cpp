@@ -68,7 +68,7 @@ TEST_F(FromParams, GapsAreReportedAndNotFilled) {
   EXPECT_THAT(err.str(), HasSubstr("6 fields are missing in 2 gaps, the first of 3 after 10002.020000000"));
 }
 
-TEST_F(FromParams, AFieldRateThatTheStampsContradictHasToBeSet) {
+TEST_F(FromParams, AFieldRateThatContradictsTheStampsIsRefused) {
   put_constants();
   put(counted(0, 300), "/crane", 59.94);
   const auto path = bag.closed();
@@ -78,7 +78,7 @@ TEST_F(FromParams, AFieldRateThatTheStampsContradictHasToBeSet) {
   EXPECT_EQ(to_take(path, options).params.size(), 300u);
 }
 
-TEST_F(FromParams, OfSeveralCamerasOneIsChosen) {
+TEST_F(FromParams, OneOfSeveralCamerasMustBeChosen) {
   put_constants("/left");
   put(counted(1, 4), "/left");
   put_constants("/studio/right");
@@ -110,7 +110,7 @@ TEST_F(FromParams, WithoutConstantsThereIsNoTake) {
   EXPECT_THAT(refusal(bag.closed()), HasSubstr("/crane/constants"));
 }
 
-TEST_F(FromParams, ConstantsMayComeLateAndTwiceButNotChange) {
+TEST_F(FromParams, ConstantsMayBeLateAndRepeatedButNotChange) {
   put(counted(1, 4));
   put_constants();
   put(counted(4, 8));
@@ -124,13 +124,13 @@ TEST_F(FromParams, ConstantsMayComeLateAndTwiceButNotChange) {
   EXPECT_THAT(refusal(other.closed()), HasSubstr("the constants change"));
 }
 
-TEST_F(FromParams, ConstantsThatDescribeNoPictureAreRefused) {
+TEST_F(FromParams, InvalidConstantsAreRefused) {
   bag.put("/crane/constants", 99.5, constants_message(0, -1));
   put(counted(1, 4));
   EXPECT_THAT(refusal(bag.closed()), HasSubstr("the constants at "));
 }
 
-TEST_F(FromParams, ATakeHoldsOneId) {
+TEST_F(FromParams, ATakeContainsOneId) {
   put_constants("/crane", 5);
   bag.put("/crane/params", 100, params_message(some_params(1, 7), 100));
   EXPECT_EQ(to_take(bag.closed()).constants.id, 7u);
@@ -147,7 +147,7 @@ TEST_F(FromParams, ATakeHoldsOneId) {
   EXPECT_EQ(to_take(path, options).params.at(1).id, 3u);
 }
 
-TEST_F(FromParams, AWarningReplacesTheProgressOfReading) {
+TEST_F(FromParams, AWarningReplacesTheProgressLine) {
   for (std::uint64_t fields = 20'000; err.str().find("trk: reading") == std::string::npos; fields *= 2) {
     ASSERT_LT(fields, 10'000'000u) << "however long it takes to read, no progress is shown";
     SomeBag many(directory / "many.bag", rosbag::compression::BZ2);
@@ -165,7 +165,7 @@ TEST_F(FromParams, AWarningReplacesTheProgressOfReading) {
   EXPECT_THAT(err.str(), HasSubstr("%\r\033[Ktrk: the constants have id 5, the parameters 7"));
 }
 
-TEST_F(FromParams, WhatATakeCannotHoldIsLeftOutAndReported) {
+TEST_F(FromParams, FieldsThatATakeCannotContainAreOmittedAndReported) {
   put_constants();
   put(counted(1, 3));
   auto bad = some_params(3);

@@ -102,7 +102,7 @@ TEST_F(FromTf, PosesAreComposedAndInterpolatedAtTheStampsOfCameraInfo) {
   EXPECT_EQ(take.constants.chip_width, 9.59);
 }
 
-TEST_F(FromTf, AFrameOfTheCamerasOwnAxesCanBeNamed) {
+TEST_F(FromTf, TheFrameOfTheCameraAxesCanBeSet) {
   put_arm();
   put_tf(100.0, 30);
   put_tf(100.2, 30);
@@ -143,7 +143,7 @@ TEST_F(FromTf, TheOrderOfRecordingDoesNotMatter) {
   EXPECT_TRUE(takes[0] == takes[1]);
 }
 
-TEST_F(FromTf, FieldsWithoutTransformsAroundThemAreLeftOut) {
+TEST_F(FromTf, FieldsWithoutTransformsAroundThemAreOmitted) {
   put_arm();
   put_info(99.5);
   put_tf(100.0, 0);
@@ -154,7 +154,7 @@ TEST_F(FromTf, FieldsWithoutTransformsAroundThemAreLeftOut) {
   EXPECT_THAT(err.str(), HasSubstr("left out: 2 fields, the first at 99.500000000: no transforms around its time"));
 }
 
-TEST_F(FromTf, WithoutConstantsTheChipHasToBeSet) {
+TEST_F(FromTf, WithoutConstantsTheChipSizeMustBeSet) {
   put_arm();
   put_tf(100.0, 0);
   put_tf(100.2, 0);
@@ -162,7 +162,7 @@ TEST_F(FromTf, WithoutConstantsTheChipHasToBeSet) {
   EXPECT_THAT(refusal(bag.closed()), HasSubstr("set --chip-width MM and --chip-height MM"));
 }
 
-TEST_F(FromTf, SizesThatDescribeNoPictureAreNamed) {
+TEST_F(FromTf, InvalidSizesAreNamed) {
   put_arm();
   put_tf(100.0, 0);
   put_tf(100.2, 0);
@@ -220,12 +220,12 @@ TEST_F(FromTf, BinningAndRegionOfInterestDoNotChangeTheLens) {
   EXPECT_EQ(take.params[1].center_x, take.params[0].center_x);
 }
 
-TEST_F(FromTf, WithoutAnyTfThePoseIsNotKnown) {
+TEST_F(FromTf, WithoutTfThePoseIsUnknown) {
   put_info(100);
   EXPECT_THAT(refusal(bag.closed(), with_chip()), HasSubstr("neither /tf nor /tf_static"));
 }
 
-TEST_F(FromTf, ALongRecordingStartsAndEndsAsItWas) {
+TEST_F(FromTf, ALongRecordingIsConvertedCompletely) {
   put_arm();
   for (int i = 0; i <= 3000; ++i) put_tf(1000 + 0.02 * i, 0.1 * i);
   for (int i = 0; i < 3000; ++i) put_info(1000.01 + 0.02 * i);

@@ -55,7 +55,7 @@ class ReaderTest : public BagTest, public testing::WithParamInterface<rosbag::Co
   }
 };
 
-TEST_P(ReaderTest, MessagesComeInTheOrderOfTheirTimesWhereverTheyStand) {
+TEST_P(ReaderTest, MessagesAreReadInOrderOfTime) {
   std::mt19937 random(1998);
   for (const int reach : {0, 1, 300, 2000}) {
     // No two times are equal: their order is not defined by rosbag.
@@ -72,13 +72,13 @@ TEST_P(ReaderTest, MessagesComeInTheOrderOfTheirTimesWhereverTheyStand) {
   }
 }
 
-TEST_P(ReaderTest, MessagesOfOneTimeComeAsTheyStand) {
+TEST_P(ReaderTest, MessagesWithEqualTimesAreReadInFileOrder) {
   const auto read = by_us(bag_of(500, [](int) { return ::ros::Time(100, 5); }));
   ASSERT_EQ(read.size(), 500U);
   for (int i = 0; i < 500; ++i) ASSERT_EQ(read[static_cast<std::size_t>(i)].second, text(i).data);
 }
 
-TEST_P(ReaderTest, OnlyWhatIsWantedIsReadAndOnlyAsLongAsItIs) {
+TEST_P(ReaderTest, OnlyWantedMessagesAreReadUntilTheVisitorStops) {
   Reader bag(bag_of(500, [](int i) { return ::ros::Time(100 + static_cast<std::uint32_t>(i), 0); }), run);
   std::vector<std::string> read;
   bag.read_while([](const Connection& connection) { return connection.topic == "/a"; },
@@ -93,7 +93,7 @@ TEST_P(ReaderTest, OnlyWhatIsWantedIsReadAndOnlyAsLongAsItIs) {
   EXPECT_EQ(read, (std::vector<std::string>{text(0).data, text(3).data, text(6).data, text(9).data}));
 }
 
-TEST_P(ReaderTest, AChunkThatIsDamagedIsNamed) {
+TEST_P(ReaderTest, ADamagedChunkIsNamed) {
   const std::string path = bag_of(500, [](int i) { return ::ros::Time(100 + static_cast<std::uint32_t>(i), 0); });
   std::string bytes = test::read_text(path);
   const std::size_t second = bytes.find("compression=", bytes.find("compression=") + 1);

@@ -29,9 +29,9 @@ const std::vector<std::string> field_takes{"field/takes/euler.trk",
                                            "field/identified_lp64/ref500.trk"};
 
 class ToBag : public BagTest {};
-class ThereAndBack : public BagTest, public testing::WithParamInterface<std::string> {};
+class RoundTripOfTakes : public BagTest, public testing::WithParamInterface<std::string> {};
 
-TEST_P(ThereAndBack, IsTheSameTake) {
+TEST_P(RoundTripOfTakes, IsTheSameTake) {
   const auto path = test::data_path(GetParam());
   const auto sent = file::read_take(path);
   const auto back = to_take(to_bag(path));
@@ -40,10 +40,10 @@ TEST_P(ThereAndBack, IsTheSameTake) {
   EXPECT_EQ(bits_of(back.params), bits_of(sent.params));
 }
 
-INSTANTIATE_TEST_SUITE_P(FieldTakes, ThereAndBack, testing::ValuesIn(field_takes),
+INSTANTIATE_TEST_SUITE_P(FieldTakes, RoundTripOfTakes, testing::ValuesIn(field_takes),
                          [](const auto& test) { return "Take" + std::to_string(test.index); });
 
-TEST_F(ToBag, ATakeInShortestFormComesBackByteForByte) {
+TEST_F(ToBag, ATakeInShortestFormIsRestoredByteForByte) {
   const auto take = take_of(some_fields(300, 7));
   for (const char* compression : {"none", "bz2", "lz4"}) {
     TakeToBagOptions options;
@@ -54,7 +54,7 @@ TEST_F(ToBag, ATakeInShortestFormComesBackByteForByte) {
   }
 }
 
-TEST_F(ToBag, ConstantsThatServeAnyCameraStaySo) {
+TEST_F(ToBag, ConstantsForAnyCameraKeepIdZero) {
   const auto take = directory / "any.trk";
   write_text(take,
              "DMC01\n10:20:30:12:1\n720 576 10 10 0 0 6.4 4.8 6.58286 4.8\nI7 1 0.5 -2 1.5 0 0 0 7.7 0 0 0 0 0 0 9\n");
@@ -77,7 +77,7 @@ TEST_F(ToBag, EqualTakesMakeEqualFiles) {
   }
 }
 
-TEST_F(ToBag, HoldsWhatTheNodePublishes) {
+TEST_F(ToBag, ContainsWhatTheNodePublishes) {
   TakeToBagOptions options;
   options.camera = "crane1";
   const auto path = test::data_path("field/takes/euler.trk");
@@ -123,7 +123,7 @@ TEST_F(ToBag, HoldsWhatTheNodePublishes) {
   EXPECT_EQ(infos, fields);
 }
 
-TEST_F(ToBag, TimeCodesAreMessagesAndComeBack) {
+TEST_F(ToBag, TimeCodesAreMessagesAndAreRestored) {
   TakeToBagOptions options;
   options.field_rate = 59.94;
   options.start = 1'700'000'000'000'000'000;  // no time of day says the code
@@ -160,7 +160,7 @@ TEST_F(ToBag, TheDayAndTheStartCanBeSet) {
   EXPECT_EQ(to_take(directory / "a.bag").time_code, file::read_take(take).time_code);
 }
 
-TEST_F(ToBag, TheFieldRateNeedNotBeRepeatedOnTheWayBack) {
+TEST_F(ToBag, TheFieldRateIsKeptInTheBag) {
   for (const double rate : {23.976, 25.0, 59.94, 60000.0 / 1001.0, 119.88}) {
     TakeToBagOptions options;
     options.field_rate = rate;
@@ -180,7 +180,7 @@ TEST_F(ToBag, ParamsCanBeConvertedToAnotherFormat) {
   EXPECT_EQ(back.params[0].euler.y, some_params(1000).euler.z);
 }
 
-TEST_F(ToBag, WhatTheNodeWouldNotPublishIsReportedAndLeftOut) {
+TEST_F(ToBag, WhatTheNodeWouldNotPublishIsReportedAndOmitted) {
   to_bag(take_of({some_params(5), some_params(6), some_params(6), some_params(7)}));
   EXPECT_THAT(err.str(), HasSubstr("1 fields are not in the bag: their counter came before"));
   EXPECT_EQ(to_take(directory / "a.bag").params.size(), 3u);
@@ -203,7 +203,7 @@ TEST_F(ToBag, ExistingFilesAreReplacedOnlyWhenAsked) {
   EXPECT_EQ(to_take(directory / "a.bag").params.size(), 3u);
 }
 
-TEST_F(ToBag, WrongOptionsAreNamedAndNothingStays) {
+TEST_F(ToBag, WrongOptionsAreNamedAndLeaveNoFile) {
   const auto take = take_of(some_fields(3));
   const auto refused = [&](const TakeToBagOptions& options) {
     std::string error = test::error_of<std::runtime_error>([&] { to_bag(take, options); });

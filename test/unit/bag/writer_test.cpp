@@ -60,7 +60,7 @@ class TwoBags {
 
 class WriterTest : public BagTest, public testing::WithParamInterface<std::string> {};
 
-TEST_P(WriterTest, IsWhatRosbagWrites) {
+TEST_P(WriterTest, IsEqualToRosbag) {
   TwoBags bags(directory / "ours.bag", directory / "theirs.bag", GetParam());
   bags.connect<sensor_msgs::CameraInfo>("/never", {{"latching", "1"}});
   bags.connect<sensor_msgs::CameraInfo>("/info", {{"latching", "0"}, {"callerid", "/a"}});
@@ -87,7 +87,7 @@ TEST_P(WriterTest, IsWhatRosbagWrites) {
   EXPECT_TRUE(ours == read_text(directory / "theirs.bag"));
 }
 
-TEST_P(WriterTest, NothingIsABagAsWell) {
+TEST_P(WriterTest, AnEmptyBagIsValid) {
   TwoBags bags(directory / "ours.bag", directory / "theirs.bag", GetParam());
   bags.connect<sensor_msgs::CameraInfo>("/never", {});
   bags.close();

@@ -16,12 +16,12 @@ TEST(Nearest, IsTheSmallestEditDistance) {
   EXPECT_EQ(nearest("stmp", words), "stamp");
 }
 
-TEST(Nearest, OfSeveralAtOneDistanceItIsTheFirst) {
+TEST(Nearest, TheFirstOfSeveralAtEqualDistance) {
   EXPECT_EQ(nearest("", {"bb", "aa"}), "bb");
   EXPECT_EQ(nearest("cat", {"bat", "hat"}), "bat");
 }
 
-TEST(Likely, IsTheNearestWhereItIsNear) {
+TEST(Likely, IsTheNearestIfItIsSimilar) {
   const std::vector<std::string> words{"udp", "freed", "dump", "monitor"};
   EXPECT_EQ(likely("upd", words), "udp");
   EXPECT_EQ(likely("dumb", words), "dump");

@@ -31,7 +31,7 @@ void pass(std::chrono::milliseconds time) {
   while (std::chrono::steady_clock::now() < end) ::usleep(1000);
 }
 
-TEST(StopSignals, TheFirstOneStopsAndMoreWithinTwoSecondsChangeNothing) {
+TEST(StopSignals, TheFirstStopsAndOthersWithinTwoSecondsAreIgnored) {
   EXPECT_EQ(outcome([] {
               const StopSignals signals(count_call);
               if (StopSignals::received()) return 100;
@@ -42,7 +42,7 @@ TEST(StopSignals, TheFirstOneStopsAndMoreWithinTwoSecondsChangeNothing) {
             1);
 }
 
-TEST(StopSignals, LaterOnesEndTheProcess) {
+TEST(StopSignals, LaterSignalsEndTheProcess) {
   for (const int number : {SIGINT, SIGTERM}) {
     EXPECT_EQ(outcome([number] {
                 const StopSignals signals(count_call);
@@ -55,7 +55,7 @@ TEST(StopSignals, LaterOnesEndTheProcess) {
   }
 }
 
-TEST(StopSignals, WhatIsDoneAfterThemIsAsSafe) {
+TEST(StopSignals, WorkAfterTheScopeIsNotInterrupted) {
   EXPECT_EQ(outcome([] {
               {
                 const StopSignals signals(count_call);
@@ -68,7 +68,7 @@ TEST(StopSignals, WhatIsDoneAfterThemIsAsSafe) {
             1);
 }
 
-TEST(StopSignals, WithoutOneEverythingIsAsBefore) {
+TEST(StopSignals, WithoutASignalHandlersAreRestored) {
   EXPECT_EQ(outcome([] {
               { const StopSignals signals(count_call); }
               ::raise(SIGTERM);
@@ -77,7 +77,7 @@ TEST(StopSignals, WithoutOneEverythingIsAsBefore) {
             -SIGTERM);
 }
 
-TEST(StandardDescriptors, ClosedOnesAreOpenedOnNothingAndOthersAreLeft) {
+TEST(StandardDescriptors, ClosedOnesAreOpenedOnDevNullAndOthersAreUnchanged) {
   EXPECT_EQ(outcome([] {
               struct stat before {};
               if (::fstat(STDOUT_FILENO, &before) != 0) return 1;

@@ -17,7 +17,7 @@ TEST(Sequence, FirstThenNext) {
   EXPECT_EQ(sequence.counts().lost, 0u);
 }
 
-TEST(Sequence, OnlyNewRecordsAreNews) {
+TEST(Sequence, IsNewForNewRecordsOnly) {
   EXPECT_TRUE(is_new(Order::first));
   EXPECT_TRUE(is_new(Order::next));
   EXPECT_TRUE(is_new(Order::restarted));
@@ -26,7 +26,7 @@ TEST(Sequence, OnlyNewRecordsAreNews) {
   EXPECT_FALSE(is_new(Order::late));
 }
 
-TEST(Sequence, SaysHowFarARecordIsAheadOfTheNewest) {
+TEST(Sequence, ReportsTheStepFromTheNewestRecord) {
   Sequence sequence;
   const auto step_of = [&sequence](std::uint64_t counter) {
     (void)sequence.judge(counter);
@@ -41,7 +41,7 @@ TEST(Sequence, SaysHowFarARecordIsAheadOfTheNewest) {
   EXPECT_EQ(step_of(100000), 0u) << "restarted";
 }
 
-TEST(Sequence, AFieldRateThatBecomesKnownMovesTheLimitOfLoss) {
+TEST(Sequence, AFieldRateThatBecomesKnownChangesTheLimitOfLoss) {
   Sequence sequence(50);
   (void)sequence.judge(1);
   EXPECT_EQ(sequence.judge(1 + 3001), Order::restarted) << "more than 60 s of 50 Hz";
@@ -60,7 +60,7 @@ TEST(Sequence, CountsWhatIsMissing) {
   EXPECT_EQ(sequence.counts().lost, 3u);
 }
 
-TEST(Sequence, TheNewestAgainIsADuplicate) {
+TEST(Sequence, ARepeatedNewestRecordIsADuplicate) {
   Sequence sequence;
   (void)sequence.judge(10);
   EXPECT_EQ(sequence.judge(10), Order::duplicate);
@@ -84,7 +84,7 @@ TEST(Sequence, ALateRecordWasNotLost) {
   EXPECT_EQ(sequence.judge(14), Order::next);
 }
 
-TEST(Sequence, WhatIsOlderThanTheFirstWasNeverLost) {
+TEST(Sequence, RecordsOlderThanTheFirstAreNotCountedAsLost) {
   Sequence sequence;
   (void)sequence.judge(10);
   EXPECT_EQ(sequence.judge(9), Order::late);
@@ -122,7 +122,7 @@ TEST(Sequence, TheRateSetsWhatASecondIs) {
   EXPECT_EQ(sequence.judge(759 + 240 * 120 + 1), Order::restarted);
 }
 
-TEST(Sequence, ARateThatIsNoneIsRefused) {
+TEST(Sequence, AnInvalidRateIsRefused) {
   EXPECT_THROW(Sequence(0.0), std::invalid_argument);
   EXPECT_THROW(Sequence(-50.0), std::invalid_argument);
   EXPECT_THROW(Sequence(std::nan("")), std::invalid_argument);
@@ -152,7 +152,7 @@ TEST(Sequence, AnEightByteCounterDoesNotWrapAtFour) {
   EXPECT_EQ(sequence.judge(5), Order::restarted);
 }
 
-TEST(Sequence, TheLargestCountersAreNoTrouble) {
+TEST(Sequence, TheLargestCountersWork) {
   Sequence sequence;
   (void)sequence.judge(0xFFFFFFFFFFFFFFFFu);
   EXPECT_EQ(sequence.judge(0xFFFFFFFFFFFFFFFFu), Order::duplicate);
@@ -161,7 +161,7 @@ TEST(Sequence, TheLargestCountersAreNoTrouble) {
   EXPECT_EQ(sequence.judge(0xFFFFFFFFFFFFFFFFu), Order::duplicate);
 }
 
-TEST(Sequence, RemembersAsFarAsItsWindow) {
+TEST(Sequence, RemembersItsWindow) {
   Sequence sequence(1000.0);
   (void)sequence.judge(0);
   (void)sequence.judge(1000);
@@ -173,7 +173,7 @@ TEST(Sequence, RemembersAsFarAsItsWindow) {
   EXPECT_EQ(sequence.counts().lost, 998u) << "further back it cannot be told whether it came before";
 }
 
-TEST(Sequence, AJumpOfTheWholeWindowKeepsTheOneBefore) {
+TEST(Sequence, AJumpOfTheFullWindowKeepsTheRecordBefore) {
   Sequence sequence(1000.0);
   (void)sequence.judge(100);
   (void)sequence.judge(100 + Sequence::window);
@@ -220,7 +220,7 @@ TEST_F(Automatic, ALateRecordFillsAGapOfAtMost16) {
   EXPECT_EQ(sequence.counts().late, 1u);
 }
 
-TEST_F(Automatic, WhatCameBeforeIsADuplicateAndEqualCountersAreARestart) {
+TEST_F(Automatic, EqualRecordsAreDuplicatesAndEqualCountersAreARestart) {
   (void)judge_still(10);
   (void)judge_still(11);
   EXPECT_EQ(judge_still(11), Order::duplicate);
@@ -236,7 +236,7 @@ TEST_F(Automatic, ALateRecordThatComesTwiceIsADuplicate) {
   EXPECT_EQ(judge_still(11), Order::duplicate);
 }
 
-TEST_F(Automatic, ADuplicateOfTheLastSecondIsNoRestart) {
+TEST_F(Automatic, ADuplicateOfTheLastSecondIsNotARestart) {
   for (std::uint64_t counter = 0; counter < 100; ++counter) (void)judge_still(counter);
   EXPECT_EQ(judge_still(50), Order::duplicate);
   EXPECT_EQ(judge_still(100), Order::next);
@@ -250,7 +250,7 @@ TEST_F(Automatic, ATakeThatIsPlayedAgainIsARestart) {
   EXPECT_EQ(sequence.counts().state, CounterState::counts);
 }
 
-TEST_F(Automatic, TooManyLateOnesInARowAreARestart) {
+TEST_F(Automatic, TooManyConsecutiveLateRecordsAreARestart) {
   (void)judge(10);
   (void)judge(24);
   for (std::uint64_t counter = 11; counter < 11 + Sequence::lates_allowed; ++counter) {
@@ -260,7 +260,7 @@ TEST_F(Automatic, TooManyLateOnesInARowAreARestart) {
   EXPECT_EQ(judge(12 + Sequence::lates_allowed), Order::next);
 }
 
-TEST_F(Automatic, ACounterThatStandsIsNoticedAndSoIsThatItCountsAgain) {
+TEST_F(Automatic, DetectsACounterThatStandsStillAndCountsAgain) {
   EXPECT_EQ(judge_still(7), Order::first);
   for (unsigned i = 0; i < Sequence::repeats_allowed; ++i) EXPECT_EQ(judge_still(7), Order::duplicate);
   EXPECT_EQ(sequence.counts().state, CounterState::counts);
@@ -272,13 +272,13 @@ TEST_F(Automatic, ACounterThatStandsIsNoticedAndSoIsThatItCountsAgain) {
   EXPECT_EQ(judge_still(199), Order::duplicate);
 }
 
-TEST_F(Automatic, ACounterOfFramesTakesBothFieldsOfEach) {
+TEST_F(Automatic, ACounterOfFramesAcceptsBothFields) {
   for (std::uint64_t i = 0; i < 20; ++i) EXPECT_TRUE(is_new(judge(i / 2))) << i;
   EXPECT_EQ(sequence.counts().state, CounterState::frozen);
   EXPECT_EQ(sequence.counts().lost, 0u);
 }
 
-TEST_F(Automatic, OneRestartIsNoCircle) {
+TEST_F(Automatic, OneRestartIsNotACycle) {
   for (std::uint64_t i = 0; i < 300; ++i) {
     EXPECT_TRUE(is_new(judge(i < 40 ? i : i - 40))) << i;
     EXPECT_EQ(sequence.counts().state, CounterState::counts);
@@ -286,7 +286,7 @@ TEST_F(Automatic, OneRestartIsNoCircle) {
   EXPECT_EQ(sequence.counts().restarts, 1u);
 }
 
-TEST_F(Automatic, ASmallCircleIsNamed) {
+TEST_F(Automatic, AShortCycleIsDetected) {
   for (std::uint64_t i = 0; i < 100; ++i) EXPECT_TRUE(is_new(judge(i % 30))) << i;
   EXPECT_EQ(sequence.counts().state, CounterState::cycles);
   EXPECT_EQ(sequence.counts().lost, 0u);
@@ -300,7 +300,7 @@ TEST_F(Automatic, AnotherSenderBegins) {
   EXPECT_EQ(sequence.counts().lost, 0u);
 }
 
-TEST(Sequence, IgnoredCountersSayNothing) {
+TEST(Sequence, IgnoredCountersHaveNoEffect) {
   Sequence sequence(50.0, CounterUse::ignore);
   for (const std::uint64_t counter : {5u, 5u, 3u, 900u, 5u}) EXPECT_EQ(sequence.judge(counter), Order::uncounted);
   EXPECT_EQ(sequence.counts().accepted, 5u);

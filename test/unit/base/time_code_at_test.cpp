@@ -27,7 +27,7 @@ TEST(TimeCodeAt, CountsFieldsSinceMidnight) {
   EXPECT_EQ(code_at(37230 * second + 980'000'000, 50), "10:20:30:24:2");
 }
 
-TEST(TimeCodeAt, TakesTheNearestField) {
+TEST(TimeCodeAt, RoundsToTheNearestField) {
   EXPECT_EQ(code_at(29'999'999, 50), "00:00:00:00:2");
   EXPECT_EQ(code_at(30'000'001, 50), "00:00:00:01:1");
 }
@@ -43,7 +43,7 @@ TEST(TimeCodeAt, StartsAgainAtMidnight) {
   EXPECT_EQ(code_at(86400 * second, 50), "00:00:00:00:1");
 }
 
-TEST(TimeCodeAt, IsTheWayBackOfNanosecondsOf) {
+TEST(TimeCodeAt, IsTheInverseOfNanosecondsOf) {
   for (const double rate : {1.0, 23.976, 25.0, 29.97, 50.0, 59.94, 60000.0 / 1001.0, 60.0, 119.88, 200.0}) {
     for (const char* text : {"00:00:00:00:1", "03:13:51:00:1", "10:20:30:12:1", "23:59:59:00:1"}) {
       const auto code = parse_time_code(text).value();
@@ -54,7 +54,7 @@ TEST(TimeCodeAt, IsTheWayBackOfNanosecondsOf) {
   }
 }
 
-TEST(TimeCodeAt, RefusesWhatNoCodeTells) {
+TEST(TimeCodeAt, RefusesTimesWithoutCode) {
   EXPECT_THAT(code_at(-1, 50), HasSubstr("before midnight"));
   EXPECT_THAT(code_at(0, 0), HasSubstr("rates are"));
   EXPECT_THAT(code_at(990'000'000, 240), HasSubstr("frame 119"));

@@ -49,7 +49,7 @@ TEST(TimeCode, NonDropNtscRunsLateByItsRate) {
   EXPECT_EQ(nanoseconds_of({1, 0, 0, 0, 1}, 60000.0 / 1001.0, 0), 3'603'600'000'000LL);
 }
 
-TEST(TimeCode, GoesOnPastMidnight) {
+TEST(TimeCode, ContinuesPastMidnight) {
   EXPECT_EQ(nanoseconds_of({23, 59, 59, 24, 2}, 50.0, 1), 24 * 3600 * second);
   EXPECT_EQ(nanoseconds_of({0, 0, 0, 0, 1}, 50.0, 50ULL * 86400 * 400), 400LL * 86400 * second);
 }
@@ -83,7 +83,7 @@ void expect_counted(const std::vector<Counted>& table) {
   }
 }
 
-TEST(TimeCode, DropFrameLeavesOutTwoFramesAMinuteButEveryTenth) {
+TEST(TimeCode, DropFrameSkipsTwoFramesAMinuteExceptEveryTenth) {
   // SMPTE ST 12-1: 17982 frames in ten minutes, 107892 in an hour, 2589408 in a day.
   expect_counted({{29.97, 1799, "00:00:59;29:1"},
                   {29.97, 1800, "00:01:00;02:1"},
@@ -124,7 +124,7 @@ TEST(TimeCode, NonDropFilmRatesCountWholeFrames) {
   EXPECT_EQ(exact_rate(59.9), 59.9);
 }
 
-TEST(TimeCode, WhatDropFrameDoesNotHaveIsRefused) {
+TEST(TimeCode, CodesThatDropFrameSkipsAreRefused) {
   for (const TimeCode& code : {TimeCode{0, 1, 0, 0, 1, true}, TimeCode{10, 59, 0, 1, 1, true}}) {
     EXPECT_THAT(nanoseconds_of(code, 29.97, 0).error(), testing::HasSubstr(to_string(code)));
   }

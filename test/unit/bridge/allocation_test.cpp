@@ -147,7 +147,7 @@ TEST(Allocation, DoesNotHappenForSetsOfTf) {
   EXPECT_GT(input.statistics().dropped, 10U);
 }
 
-TEST(Allocation, DoesNotHappenForFeedsThatArePassedOn) {
+TEST(Allocation, DoesNotHappenForForwardedRecords) {
   auto writer = writer_of(Feed::passed_on);
   const auto write_all = [&](int round) {
     for (std::uint32_t id = 0; id < OutletWriter::most_ids + 3; ++id) {

@@ -65,19 +65,19 @@ TEST_F(CameraHistoryTest, LeadExtrapolatesAndStops) {
 }
 
 /// Two times 1 us apart would make a thousand metres a second of a millimetre of noise.
-TEST_F(CameraHistoryTest, LeadDoesNotMultiplyTheNoiseOfTimesThatLieTogether) {
+TEST_F(CameraHistoryTest, LeadDoesNotAmplifyTheNoiseOfCloseTimes) {
   add(0, 0);
   add(20 * ms, 1);
   add(20 * ms + 1000, 1.001);
   EXPECT_NEAR(x_at(40 * ms, 40 * ms), 2, 0.01);
 }
 
-TEST_F(CameraHistoryTest, OneSampleIsNoMotionToExtrapolate) {
+TEST_F(CameraHistoryTest, OneSampleIsNotExtrapolated) {
   add(0, 7);
   EXPECT_EQ(x_at(30 * ms, 40 * ms), 7);
 }
 
-TEST_F(CameraHistoryTest, ALateSampleTakesItsPlace) {
+TEST_F(CameraHistoryTest, ALateSampleIsInsertedInOrder) {
   add(0, 0);
   add(40 * ms, 2);
   EXPECT_NEAR(x_at(30 * ms), 1.5, 1e-12);
@@ -88,7 +88,7 @@ TEST_F(CameraHistoryTest, ALateSampleTakesItsPlace) {
   EXPECT_NEAR(x_at(30 * ms), 1.95, 1e-12);
 }
 
-TEST_F(CameraHistoryTest, ItKeepsTheNewestAndForgetsTheOldest) {
+TEST_F(CameraHistoryTest, KeepsTheNewestAndDropsTheOldest) {
   constexpr auto kept = static_cast<std::int64_t>(SampleRing<int>::capacity);
   for (std::int64_t i = 0; i < 3 * kept; ++i) add(i * ms, static_cast<double>(i));
   EXPECT_EQ(x_at(2 * kept * ms - 1), -1);
@@ -98,7 +98,7 @@ TEST_F(CameraHistoryTest, ItKeepsTheNewestAndForgetsTheOldest) {
   EXPECT_EQ(x_at(2 * kept * ms), 2 * kept) << "one that is too old costs none that is kept";
 }
 
-TEST_F(CameraHistoryTest, EachPartIsOfATimeOfItsOwn) {
+TEST_F(CameraHistoryTest, EachPartHasItsOwnTime) {
   for (int i = 0; i < 5; ++i) {
     auto camera = camera_at(i, 10 + i);
     camera.pose.linear() = camera::rotation_of({10.0 * i, 0, 0});
@@ -115,7 +115,7 @@ TEST_F(CameraHistoryTest, EachPartIsOfATimeOfItsOwn) {
 }
 
 /// A CameraInfo a frame, and poses five times as often, each with the CameraInfo before it.
-TEST_F(CameraHistoryTest, ALensOfTimesOfItsOwnIsInterpolatedByThese) {
+TEST_F(CameraHistoryTest, ALensWithItsOwnTimesIsInterpolatedByThem) {
   for (int i = 0; i <= 20; ++i) {
     const std::int64_t frame = i / 5;
     history->add(camera_at(i, static_cast<double>(10 + frame)), start + i * 8 * ms, start + frame * 40 * ms);
@@ -128,7 +128,7 @@ TEST_F(CameraHistoryTest, ALensOfTimesOfItsOwnIsInterpolatedByThese) {
   EXPECT_EQ(found->margins.lens, 110 * ms) << "a lens that stands is no sample that is missing";
 }
 
-TEST_F(CameraHistoryTest, ALensThatChangesWithoutATimeOfItsOwnHasThatOfThePose) {
+TEST_F(CameraHistoryTest, ALensThatChangesWithoutANewTimeGetsThatOfThePose) {
   history->add(camera_at(0), start, start - 1000 * ms);
   history->add(camera_at(1), start + 20 * ms, start - 1000 * ms);
   history->add(camera_at(2, 14), start + 40 * ms, start - 1000 * ms);

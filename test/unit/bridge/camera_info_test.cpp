@@ -30,7 +30,7 @@ void expect_fault(const CameraInfo& info, InfoReason reason) {
   EXPECT_EQ(fitted.error().reason, reason) << describe(fitted.error());
 }
 
-TEST(ViewingLens, IsWhatTheMessageSays) {
+TEST(ViewingLens, ContainsTheValuesOfTheMessage) {
   const auto lens = viewing_lens(info_of("plumb_bob", {-0.1, 0.01, 1e-3, 2e-3, 0.5}));
   ASSERT_TRUE(lens);
   const camera::ViewingLens expected{
@@ -49,7 +49,7 @@ TEST(FittedLens, IsInMillimetresOfTheChip) {
   EXPECT_EQ(fitted->lens.k1, 0);
 }
 
-TEST(CameraInfo, IsRefusedWithoutPixelsOrOfOtherModels) {
+TEST(CameraInfo, IsRefusedWithoutPixelsOrWithUnknownModels) {
   auto info = info_of("", {});
   info.height = 0;
   expect_fault(info, InfoReason::no_size);
@@ -63,7 +63,7 @@ TEST(CameraInfo, IsRefusedWithoutPixelsOrOfOtherModels) {
   expect_fault(info_of("rational_polynomial", {0.1, 0, 0, 0, 0}), InfoReason::coefficients);
 }
 
-TEST(CameraInfo, WhatIsWrongNamesWhatIsAllowed) {
+TEST(CameraInfo, FaultsNameWhatIsAllowed) {
   EXPECT_EQ(describe(InfoFault{InfoReason::no_size, {}}), "width and height must be from 1 to 2147483647");
   auto info = info_of("", {});
   info.width = info.height = 0x7fffffff;
@@ -76,7 +76,7 @@ TEST(CameraInfo, WhatIsWrongNamesWhatIsAllowed) {
   }
 }
 
-TEST(CameraInfo, WithNumbersThatNoCameraHasSaysWhy) {
+TEST(CameraInfo, InvalidNumbersAreExplained) {
   auto info = info_of("plumb_bob", {0, 0, 0, 0, 0});
   info.k[0] = 0;
   auto fitted = fit_lens(info, chip());

@@ -37,7 +37,7 @@ std::vector<int> all_fields() {
   return fields;
 }
 
-TEST(Senders, NoCounterFreezesASenderOfFreshValues) {
+TEST(Senders, NoCounterStopsASenderWithNewValues) {
   struct Case {
     const char* name;
     std::function<std::uint64_t(int)> counter_of;
@@ -74,7 +74,7 @@ TEST(Senders, NoCounterFreezesASenderOfFreshValues) {
   }
 }
 
-TEST(Senders, AStrictCounterRulesWhateverItDoes) {
+TEST(Senders, AStrictCounterIsAlwaysObeyed) {
   CameraOptions strict;
   strict.counter = base::CounterUse::strict;
   CameraPipeline stands(strict, 50), circles(strict, 50);
@@ -82,7 +82,7 @@ TEST(Senders, AStrictCounterRulesWhateverItDoes) {
   EXPECT_EQ(published_of([](int i) { return i % 30; }, all_fields(), circles).size(), 30u);
 }
 
-TEST(Senders, EveryFieldOnceWhenEverySecondComesTwice) {
+TEST(Senders, EveryFieldOnceIfEverySecondIsDuplicated) {
   std::vector<int> fields;
   for (const int i : all_fields()) fields.insert(fields.end(), i % 2 == 0 ? 1 : 2, i);
   CameraPipeline pipeline(CameraOptions{}, 50);
@@ -175,7 +175,7 @@ TEST(Senders, ConstantsOfAForeignSenderAreIgnored) {
   EXPECT_TRUE(pipeline.process(s, field).constants);
 }
 
-TEST(Senders, ASenderOfNoCameraCannotTakeItFromOthers) {
+TEST(Senders, ASenderOfInvalidCamerasCannotReplaceOthers) {
   CameraPipeline pipeline(CameraOptions{}, 50);
   auto bad = sample_from(2000, 1, 0);
   std::get<wire::CameraParams>(bad.record).euler.pan = std::nan("");

@@ -39,7 +39,7 @@ std::int64_t width(const std::vector<std::int64_t>& offsets) {
   return *most - *least;
 }
 
-TEST(CameraPipeline, StampsByCounterHaveItsRhythmLessTheDelay) {
+TEST(CameraPipeline, StampsByCounterHaveItsRhythmMinusTheDelay) {
   CameraOptions options = stamped_by(StampMode::counter);
   options.delay = 0.04;
   CameraPipeline pipeline(options, std::nullopt);
@@ -60,7 +60,7 @@ TEST(CameraPipeline, StampsByCounterHaveItsRhythmLessTheDelay) {
   EXPECT_NEAR(by_arrival.statistics().rhythm.interval, field, 200) << "known all the same";
 }
 
-TEST(CameraPipeline, StampsAreArrivalsWhereTheCounterDoesNotCount) {
+TEST(CameraPipeline, StampsAreArrivalsIfTheCounterDoesNotCount) {
   struct Case {
     StampState state;
     base::CounterUse use;
@@ -89,7 +89,7 @@ TEST(CameraPipeline, StampsAreArrivalsWhereTheCounterDoesNotCount) {
   }
 }
 
-TEST(CameraPipeline, AnotherSenderIsLearnedFromTheBegin) {
+TEST(CameraPipeline, AnotherSenderIsMeasuredFromItsStart) {
   CameraPipeline pipeline(stamped_by(StampMode::counter), std::nullopt);
   feed(pipeline, 0, 500);
   ASSERT_EQ(pipeline.statistics().stamp_state, StampState::counter);
@@ -100,7 +100,7 @@ TEST(CameraPipeline, AnotherSenderIsLearnedFromTheBegin) {
   EXPECT_EQ(pipeline.statistics().stamp_state, StampState::learning);
 }
 
-TEST(CameraPipeline, StampsOfTheSenderAreItsOwnTimeOrArrivals) {
+TEST(CameraPipeline, StampsOfTheSenderAreItsTimesOrArrivals) {
   CameraOptions options = stamped_by(StampMode::source);
   options.delay = 0.04;
   CameraPipeline pipeline(options, 50);
@@ -115,7 +115,7 @@ TEST(CameraPipeline, StampsOfTheSenderAreItsOwnTimeOrArrivals) {
   EXPECT_EQ(pipeline.statistics().source_behind, s.arrival - *s.sample_time);
 }
 
-TEST(CameraPipeline, ALongerDelayNeverTurnsStampsBack) {
+TEST(CameraPipeline, ALongerDelayNeverMovesStampsBack) {
   CameraPipeline pipeline(CameraOptions{}, 50);
   const auto before = pipeline.process(sample(params(1), today), 0).stamp;
   LiveOptions live;

@@ -22,7 +22,7 @@ TEST(CameraPipeline, OneStampForEverythingOfASample) {
   EXPECT_EQ(pipeline.statistics().last_new, 5);
 }
 
-TEST(CameraPipeline, DuplicatesAndLateOnesGiveNothingARestartDoes) {
+TEST(CameraPipeline, DuplicatesAndLateRecordsAreNotPublishedRestartsAre) {
   CameraPipeline pipeline(CameraOptions{}, 50);
   const auto published = [&pipeline](std::uint64_t counter, std::int64_t arrival) {
     const auto made = pipeline.process(sample(params(counter), arrival), 0);
@@ -44,7 +44,7 @@ TEST(CameraPipeline, DuplicatesAndLateOnesGiveNothingARestartDoes) {
   EXPECT_EQ(pipeline.statistics().held_stamps, 1u);
 }
 
-TEST(CameraPipeline, AMatrixThatIsNoRotationIsDropped) {
+TEST(CameraPipeline, AMatrixThatIsNotARotationIsDropped) {
   CameraPipeline pipeline(CameraOptions{}, 50);
   auto p = params(1);
   p.format = 0;
@@ -55,7 +55,7 @@ TEST(CameraPipeline, AMatrixThatIsNoRotationIsDropped) {
   EXPECT_EQ(pipeline.statistics().drop_reason, camera::CameraReason::not_a_rotation);
 }
 
-TEST(CameraPipeline, WhatIsNotFiniteIsDropped) {
+TEST(CameraPipeline, ValuesThatAreNotFiniteAreDropped) {
   CameraPipeline pipeline(CameraOptions{}, 50);
   std::uint64_t counter = 0;
   for (double wire::CameraParams::*field_of : {&wire::CameraParams::fov, &wire::CameraParams::k1,
@@ -73,7 +73,7 @@ TEST(CameraPipeline, WhatIsNotFiniteIsDropped) {
   EXPECT_EQ(pipeline.statistics().dropped, counter);
 }
 
-TEST(CameraPipeline, WithholdsParamsThatNeedUnknownConstantsWhileTheTransformGoesOn) {
+TEST(CameraPipeline, WithholdsParamsThatNeedUnknownConstantsButPublishesTheTransform) {
   CameraPipeline pipeline(CameraOptions{}, 50);
   auto p = params(1);
   p.format |= wire::field_of_view;
@@ -93,7 +93,7 @@ TEST(CameraPipeline, WithholdsParamsThatNeedUnknownConstantsWhileTheTransformGoe
   EXPECT_EQ(made.params->counter, 2u);
 }
 
-TEST(CameraPipeline, AsReceivedLeavesTheRecordAlone) {
+TEST(CameraPipeline, AsReceivedDoesNotChangeTheRecord) {
   CameraOptions configured;
   configured.format.reset();
   CameraPipeline pipeline(configured, 50);
@@ -108,7 +108,7 @@ TEST(CameraPipeline, AsReceivedLeavesTheRecordAlone) {
   EXPECT_EQ(made.params->center_x, 3);
 }
 
-TEST(CameraPipeline, ReceivedConstantsWinOverTheParameterAndOwnOnesOverThoseOfAnyCamera) {
+TEST(CameraPipeline, ReceivedConstantsReplaceTheParameterAndOwnOnesThoseOfAnyCamera) {
   CameraOptions configured;
   configured.id = 7;
   configured.constants = constants();
@@ -134,7 +134,7 @@ TEST(CameraPipeline, ReceivedConstantsWinOverTheParameterAndOwnOnesOverThoseOfAn
   EXPECT_EQ(pipeline.statistics().constants, ConstantsOrigin::own);
 }
 
-TEST(CameraPipeline, ACalibrationThatIsMadeLaterIsOfItsOwnSample) {
+TEST(CameraPipeline, ALaterCalibrationBelongsToItsSample) {
   auto wider = constants();
   wider.image_width = 3840;
   auto longer = params(2);
@@ -164,11 +164,11 @@ TEST(CameraPipeline, ACalibrationThatIsMadeLaterIsOfItsOwnSample) {
   EXPECT_EQ(later.statistics().without_camera_info, counted);
 }
 
-TEST(CameraPipeline, WithoutConstantsItHasNoneToBeginWith) {
+TEST(CameraPipeline, WithoutConstantsThereAreNoInitialOnes) {
   EXPECT_FALSE(CameraPipeline(CameraOptions{}, 50).initial().constants);
 }
 
-TEST(CameraPipeline, ConstantsAreStampedWithArrivalLessDelayAndGoWithThePublishedFormat) {
+TEST(CameraPipeline, ConstantsAreStampedWithArrivalMinusDelayInThePublishedFormat) {
   CameraOptions configured;
   configured.delay = 0.04;
   configured.format = wire::euler | wire::field_of_view | wire::keep_aspect;
@@ -187,7 +187,7 @@ TEST(CameraPipeline, ConstantsAreStampedWithArrivalLessDelayAndGoWithThePublishe
   EXPECT_EQ(made.stamp, 0) << "no time is known";
 }
 
-TEST(CameraPipeline, ConstantsWithoutAPictureAreIgnored) {
+TEST(CameraPipeline, InvalidConstantsAreIgnored) {
   CameraPipeline pipeline(CameraOptions{}, 50);
   ASSERT_TRUE(pipeline.process(sample(constants()), 0).constants);
   auto bad = constants();
@@ -197,7 +197,7 @@ TEST(CameraPipeline, ConstantsWithoutAPictureAreIgnored) {
   EXPECT_TRUE(pipeline.process(sample(params(1)), 0).calibration) << "those before stay";
 }
 
-TEST(CameraPipeline, WantsItsIdOrAnyWhereItHasNone) {
+TEST(CameraPipeline, WantsItsIdOrAnyIfItHasNone) {
   CameraOptions configured;
   EXPECT_TRUE(CameraPipeline(configured, 50).wants(params(1, 3)));
   configured.id = 7;
@@ -227,7 +227,7 @@ TEST(CameraPipeline, NoCameraInfoForALensThatFoldsTheImage) {
   EXPECT_EQ(pipeline.statistics().info_reason, camera::CameraReason::not_monotonic);
 }
 
-TEST(CameraPipeline, WhatIsSwitchedOffIsNotMade) {
+TEST(CameraPipeline, DisabledOutputsAreNotMade) {
   CameraOptions configured;
   configured.publish_tf = false;
   configured.publish_camera_info = false;
@@ -239,7 +239,7 @@ TEST(CameraPipeline, WhatIsSwitchedOffIsNotMade) {
   EXPECT_EQ(pipeline.statistics().without_camera_info, 0u);
 }
 
-TEST(CameraPipeline, WhatIsChangedCountsFromTheNextSampleOn) {
+TEST(CameraPipeline, ChangesTakeEffectWithTheNextSample) {
   CameraPipeline pipeline(CameraOptions{}, 50);
   (void)pipeline.process(sample(constants()), 0);
   EXPECT_EQ(pipeline.process(sample(params(1), today), 0).stamp, today);
@@ -258,7 +258,7 @@ TEST(CameraPipeline, WhatIsChangedCountsFromTheNextSampleOn) {
   EXPECT_TRUE(back.pose && back.calibration);
 }
 
-TEST(CameraPipeline, PlumbBobAlwaysWhereThatIsWanted) {
+TEST(CameraPipeline, PlumbBobAlwaysIfRequested) {
   auto p = params(1);
   p.k1 = 0.004;
   CameraOptions options;
@@ -323,7 +323,7 @@ TEST(CameraPipeline, WithoutALensOnlyThePoseIsPublished) {
   EXPECT_TRUE(statistics.has_lens);
 }
 
-TEST(CameraPipeline, APoseThatIsNoneIsDroppedWithoutALensAsWell) {
+TEST(CameraPipeline, AnInvalidPoseIsDroppedWithoutALensAsWell) {
   CameraPipeline pipeline(CameraOptions{}, 50);
   auto p = params(1);
   p.euler.x = std::nan("");

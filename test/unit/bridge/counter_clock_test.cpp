@@ -101,7 +101,7 @@ void for_all_signals(double seconds, const std::function<void(const std::vector<
   }
 }
 
-TEST(CounterClock, JitterIsATenthFrom10ATwentiethFrom40AThirtiethFrom90SecondsOn) {
+TEST(CounterClock, JitterIsATenthAfter10ATwentiethAfter40AThirtiethAfter90Seconds) {
   for_all_signals(
       180,
       [](const std::vector<Signal>& signals) {
@@ -138,7 +138,7 @@ TEST(CounterClock, StampsAreAtTheEarlyEdgeOfTheArrivals) {
   });
 }
 
-TEST(CounterClock, StampsAreArrivalsUntilItHasLearnedAndThenGoOverWithoutAStep) {
+TEST(CounterClock, StampsAreArrivalsUntilTheRhythmIsKnownAndThenChangeWithoutAStep) {
   for_all_signals(20, [](const std::vector<Signal>& signals) {
     for (const Signal& signal : signals) {
       const Replay replay(signal);
@@ -193,7 +193,7 @@ TEST(CounterClock, AStallThatEndsInABurstMovesStampsByATenthOfTheJitterAtMost) {
       1);
 }
 
-TEST(CounterClock, AStepOfTheDelayIsNoticedAndLearnedIn10SecondsAndTheRateStays) {
+TEST(CounterClock, AStepOfTheDelayIsFollowedIn10SecondsAndTheRateStays) {
   for (const double by : {3., -3., 7., -7., 60.}) {
     for_all_signals(120, [by](const std::vector<Signal>& signals) {
       Spread later;
@@ -216,7 +216,7 @@ TEST(CounterClock, AStepOfTheDelayIsNoticedAndLearnedIn10SecondsAndTheRateStays)
   }
 }
 
-TEST(CounterClock, ARestartIsLearnedIn10SecondsAndKeepsTheRate) {
+TEST(CounterClock, AfterARestartTheRateIsKept) {
   for (const double pause : {0.0, 1.0, 7.3}) {
     for_all_signals(120, [pause](const std::vector<Signal>& signals) {
       Spread later;
@@ -236,7 +236,7 @@ TEST(CounterClock, ARestartIsLearnedIn10SecondsAndKeepsTheRate) {
   }
 }
 
-TEST(CounterClock, ATimeCodeThatWrapsAtMidnightGoesOn) {
+TEST(CounterClock, ATimeCodeThatWrapsAtMidnightContinues) {
   for_all_signals(120, [](const std::vector<Signal>& signals) {
     for (Signal signal : signals) {
       const auto day = static_cast<std::uint64_t>(24 * 3600 * std::round(signal.rate));
@@ -253,7 +253,7 @@ TEST(CounterClock, ATimeCodeThatWrapsAtMidnightGoesOn) {
   });
 }
 
-TEST(CounterClock, ACounterThatJumpsGoesOn) {
+TEST(CounterClock, ACounterThatJumpsContinues) {
   for (const std::uint64_t jump : {7u, 100u, 1000u, 100000u}) {
     for_all_signals(90, [jump](const std::vector<Signal>& signals) {
       for (Signal signal : signals) {
@@ -296,13 +296,13 @@ void expect_rate_is_learned(double to, double within) {
   });
 }
 
-TEST(CounterClock, AnotherRateIsLearnedIn10Seconds) {
+TEST(CounterClock, AnotherRateIsMeasuredIn10Seconds) {
   for (const double to : {48.0, 50.0, 60000 / 1001.0, 100.0, 120000 / 1001.0}) expect_rate_is_learned(to, 10);
 }
 
-TEST(CounterClock, ARateThatDiffersBy1000PpmIsLearnedIn15Seconds) { expect_rate_is_learned(60, 15); }
+TEST(CounterClock, ARateThatDiffersBy1000PpmIsMeasuredIn15Seconds) { expect_rate_is_learned(60, 15); }
 
-TEST(CounterClock, FollowsARateThatWanders) {
+TEST(CounterClock, FollowsARateThatDrifts) {
   for_all_signals(300, [](const std::vector<Signal>& signals) {
     Spread later;
     for (Signal signal : signals) {
@@ -319,7 +319,7 @@ TEST(CounterClock, FollowsARateThatWanders) {
   });
 }
 
-TEST(CounterClock, JitterThatBecomesTenTimesLargerIsNoStep) {
+TEST(CounterClock, JitterThatBecomesTenTimesLargerIsNotAStep) {
   for (const bool grows : {true, false}) {
     Signal small, large;
     small.seconds = large.seconds = 60;
@@ -345,7 +345,7 @@ TEST(CounterClock, JitterThatBecomesTenTimesLargerIsNoStep) {
   }
 }
 
-TEST(CounterClock, WithoutJitterStampsAreWithinTheLeastGate) {
+TEST(CounterClock, WithoutJitterStampsAreWithinTheSmallestGate) {
   Signal even;
   even.deviation = 0;
   even.ppm = 0;
@@ -354,7 +354,7 @@ TEST(CounterClock, WithoutJitterStampsAreWithinTheLeastGate) {
   EXPECT_NEAR(replay.found.interval, 20e6, 1);
 }
 
-TEST(CounterClock, AnotherSenderIsLearnedFromTheBegin) {
+TEST(CounterClock, AnotherSenderIsMeasuredFromItsStart) {
   CounterClock clock;
   const auto feed = [&clock](std::int64_t begin, std::int64_t interval) {
     int arrivals = 0;
@@ -373,7 +373,7 @@ TEST(CounterClock, AnotherSenderIsLearnedFromTheBegin) {
   EXPECT_EQ(clock.statistics().restarts + clock.statistics().rate_changes, 0u);
 }
 
-TEST(CounterClock, SamplesWithoutARhythmHaveTheirArrivals) {
+TEST(CounterClock, SamplesWithoutRhythmHaveArrivalsAsStamps) {
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> pause(1 * millisecond, 500 * millisecond);
   CounterClock clock;

@@ -85,7 +85,7 @@ bool feed_until(Departures& departures, Condition&& condition, std::vector<std::
   return false;
 }
 
-TEST(Departures, WithoutATimingEverythingGoesOutAtOnceAsItCame) {
+TEST(Departures, WithoutATimingEverythingIsSentUnchangedAtOnce) {
   Inbox inbox;
   Departures departures(options(), {inbox.destination()});
   auto bad = test::params(2);
@@ -101,7 +101,7 @@ TEST(Departures, WithoutATimingEverythingGoesOutAtOnceAsItCame) {
   EXPECT_FALSE(departures.statistics(0));
 }
 
-TEST(Departures, ADelayHoldsBackParametersAndNotConstants) {
+TEST(Departures, ADelayAppliesToParametersButNotToConstants) {
   Inbox plain, delayed;
   Departures departures(options(), {plain.destination(), delayed.destination(delay(80 * ms))});
   departures.write(test::constants());
@@ -125,7 +125,7 @@ TEST(Departures, ADelayHoldsBackParametersAndNotConstants) {
   EXPECT_EQ(departures.statistics(1)->sent, got.size() - 1);
 }
 
-TEST(Departures, ATimingCanBeChangedWhereATimerSends) {
+TEST(Departures, ATimingCanBeChangedIfATimerSends) {
   Inbox plain, paced;
   Departures departures(options(), {plain.destination(), paced.destination({}, true)});
   EXPECT_FALSE(departures.set_timing(0, delay(80 * ms)));
@@ -144,7 +144,7 @@ TEST(Departures, ATimingCanBeChangedWhereATimerSends) {
   }));
 }
 
-TEST(Departures, WhatIsStillToComeIsSentAtTheEnd) {
+TEST(Departures, DelayedSamplesAreSentAtTheEnd) {
   for (const std::int64_t late : {std::int64_t{0}, 200 * ms}) {
     Inbox inbox;
     Departures departures(options(), {inbox.destination(delay(late), true)});
@@ -164,7 +164,7 @@ TEST(Departures, WhatIsStillToComeIsSentAtTheEnd) {
   }
 }
 
-TEST(Departures, EveryIdHasAnOutputOfItsOwn) {
+TEST(Departures, EveryIdHasItsOwnOutput) {
   Inbox inbox;
   Departures departures(options(std::nullopt), {inbox.destination(delay(30 * ms))});
   ASSERT_TRUE(feed_until(departures, [&] { return inbox.all().size() > 40; }, {3, 8}));
@@ -187,7 +187,7 @@ TEST(Departures, OneCameraMayChangeItsId) {
       feed_until(departures, [&] { return std::get<wire::CameraParams>(inbox.all().back().record).id == 8; }, {8}));
 }
 
-TEST(Departures, WhatIsNoCameraIsTheDestinationsMatter) {
+TEST(Departures, InvalidCamerasArePassedToTheDestination) {
   Inbox inbox;
   Departures departures(options(), {inbox.destination(delay(30 * ms))});
   auto bad = test::params(2);
@@ -198,7 +198,7 @@ TEST(Departures, WhatIsNoCameraIsTheDestinationsMatter) {
   EXPECT_EQ(inbox.all().at(0).time, 7);
 }
 
-TEST(Departures, MoreIdsThanAnyStudioHasAreALoss) {
+TEST(Departures, TooManyIdsAreALoss) {
   Inbox inbox;
   Departures departures(options(), {inbox.destination(delay(30 * ms))});
   for (std::uint32_t id = 0; id < OutletWriter::most_ids; ++id) departures.write(test::constants(720, id));

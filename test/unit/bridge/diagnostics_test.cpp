@@ -55,7 +55,7 @@ TEST_F(Diagnostics, ReceivingIsOkWithItsRate) {
   EXPECT_EQ(status().hardware_id, "udp port 7000");
 }
 
-TEST_F(Diagnostics, NothingEverIsStaleAndSaysWhatForItWaits) {
+TEST_F(Diagnostics, NothingReceivedIsStaleAndNamesWhatItWaitsFor) {
   now.camera = {};
   now.source.state = SourceState::waiting;
   now.source.waiting_for = "slot 7: no segment";
@@ -89,7 +89,7 @@ TEST_F(Diagnostics, OtherIdsOnly) {
   expect(Level::warn, "none with id 7; seen: 3, 4");
 }
 
-TEST_F(Diagnostics, WhatStampsAreMadeOfAndTheRhythmOfTheCounter) {
+TEST_F(Diagnostics, TheOriginOfStampsAndTheRhythmOfTheCounter) {
   options.stamp = StampMode::counter;
   auto& camera = now.camera;
   camera.stamp_state = StampState::learning;
@@ -114,7 +114,7 @@ TEST_F(Diagnostics, WhatStampsAreMadeOfAndTheRhythmOfTheCounter) {
   EXPECT_EQ(value("off standard rate (ppm)"), "none");
 }
 
-TEST_F(Diagnostics, StepsRestartsAndRateChangesOfTheCounterWarnWhereStampsFollowIt) {
+TEST_F(Diagnostics, StepsRestartsAndRateChangesOfTheCounterWarnIfStampsFollowIt) {
   now.camera.stamp_state = StampState::counter;
   now.camera.rhythm.steps = now.camera.rhythm.restarts = now.camera.rhythm.rate_changes = 1;
   now.camera.rhythm.last_step = -3.2e6;
@@ -147,7 +147,7 @@ TEST_F(Diagnostics, ReasonsWhyStampsAreArrivals) {
   expect(Level::warn, "stamp: source, but the records have no time of the sender: stamps are arrivals");
 }
 
-TEST_F(Diagnostics, ASendersClockOnTaiIsNamed) {
+TEST_F(Diagnostics, ASenderClockOnTaiIsNamed) {
   EXPECT_EQ(value("sender's time behind (s)"), "none");
   now.camera.source_behind = -37 * second + 30'000'000;
   expect(Level::warn, "the sender's time is 37.0 s ahead of this machine's clock: one is TAI (PTP), the other UTC");
@@ -188,7 +188,7 @@ TEST_F(Diagnostics, AFailoverIsAnEventThatNamesBoth) {
   EXPECT_TRUE(findings(now, before, options, 50)[1].is_event);
 }
 
-TEST_F(Diagnostics, ACounterThatIsNotTrustedIsNamed) {
+TEST_F(Diagnostics, ACounterThatDoesNotCountIsNamed) {
   now.camera.sequence.state = base::CounterState::frozen;
   expect(Level::warn, "the counter stands still: records are published in order of arrival");
   EXPECT_EQ(value("counter"), "stands still");
@@ -213,7 +213,7 @@ TEST_F(Diagnostics, AFailedSourceIsAnErrorWithItsReason) {
   EXPECT_EQ(value("last error"), "udp port 7000: the network is down");
 }
 
-TEST_F(Diagnostics, AFileThatEndedIsInOrder) {
+TEST_F(Diagnostics, AFileThatEndedIsOk) {
   now.source.state = SourceState::ended;
   expect(Level::ok, "ended");
 }
@@ -258,7 +258,7 @@ TEST_F(Diagnostics, OnlyGrowthIsAFinding) {
   expect(Level::warn, camera::describe(camera::CameraReason::not_a_rotation));
 }
 
-TEST_F(Diagnostics, TheReceiveBufferIsWhatWasGranted) {
+TEST_F(Diagnostics, TheReceiveBufferIsTheGrantedOne) {
   EXPECT_EQ(value("receive buffer"), "none") << "shared memory and files have none";
   now.source.receive_buffer = now.source.wanted_buffer = 8388608;
   EXPECT_EQ(value("receive buffer"), "8388608 bytes");
@@ -291,7 +291,7 @@ TEST_F(Diagnostics, TheEncodingIsThatOfTheLastNewRecord) {
   EXPECT_EQ(value("encoding"), "none yet");
 }
 
-TEST_F(Diagnostics, RecordsWithoutALensAreInOrderAndNamed) {
+TEST_F(Diagnostics, RecordsWithoutALensAreOkAndNamed) {
   now.camera.constants = ConstantsOrigin::none;
   now.camera.has_lens = false;
   now.camera.without_lens = 100;
@@ -301,7 +301,7 @@ TEST_F(Diagnostics, RecordsWithoutALensAreInOrderAndNamed) {
   EXPECT_EQ(value("camera_info"), "no: the records have no lens");
 }
 
-TEST_F(Diagnostics, RecordsTakenInSpiteOfAFaultAreAWarning) {
+TEST_F(Diagnostics, RecordsAcceptedDespiteAFaultAreAWarning) {
   now.source.doubtful = before.source.doubtful = 5;
   now.source.last_doubt = before.source.last_doubt = "wrong checksum";
   expect(Level::ok, "receiving");

@@ -56,7 +56,7 @@ TEST_F(ParamsDiagnostics, SendingIsOkWithItsRate) {
   EXPECT_EQ(value_of(status(), "constants known"), "received");
 }
 
-TEST_F(ParamsDiagnostics, NothingEverNamesTheTopic) {
+TEST_F(ParamsDiagnostics, NothingReceivedNamesTheTopic) {
   now.params = {};
   expect(status(), Level::stale, "nothing sent yet: no messages on /crane1/params");
 }
@@ -99,7 +99,7 @@ class TfDiagnostics : public ::testing::Test {
 
 TEST_F(TfDiagnostics, SendingIsOk) { expect(status(), Level::ok, "sending at 50.00 Hz"); }
 
-TEST_F(TfDiagnostics, MissingTfIsShownInItsOwnWordsWithTheTimeSince) {
+TEST_F(TfDiagnostics, MissingTfIsShownWithItsReasonAndDuration) {
   now.pose_fault = "\"studio\" does not exist";
   now.tf.last_set = now.time - 4 * second;
   expect(status(), Level::warn, "nothing sent for 4.0 s: tf: \"studio\" does not exist");
@@ -138,7 +138,7 @@ TEST_F(TfDiagnostics, ClocksThatDifferAreShown) {
   EXPECT_EQ(value_of(status(), "tf ahead of ROS time (s)"), "-0.20");
 }
 
-TEST_F(TfDiagnostics, SlowRatesMaySleepLonger) {
+TEST_F(TfDiagnostics, SlowRatesMayBeSilentLonger) {
   now.tf.last_set = now.time - 2 * second;
   EXPECT_EQ(findings(now, before, 1).front().level, Level::ok);
 }
@@ -153,7 +153,7 @@ TEST_F(TfDiagnostics, MissingAndRefusedCameraInfo) {
   expect(status(), Level::stale, "camera_info is refused: width and height must be from 1 to 2147483647");
 }
 
-TEST_F(TfDiagnostics, ARefusedCameraInfoIsAConditionOfItsOwn) {
+TEST_F(TfDiagnostics, ARefusedCameraInfoIsASeparateCondition) {
   now.tf.info_is_refused = true;
   now.tf.info_fault = {InfoReason::unknown_model, {}};
   EXPECT_EQ(findings(now, before, 50).front().condition, Condition::bad_camera_info);
@@ -174,7 +174,7 @@ TEST_F(TfDiagnostics, WhatTheLensLosesIsShownWithItsSize) {
   EXPECT_EQ(value_of(shown, "tangential lost (px)"), "1.250");
 }
 
-TEST_F(TfDiagnostics, APoseThatIsNoCameraIsNoStaleTf) {
+TEST_F(TfDiagnostics, AnInvalidPoseIsNotReportedAsStaleTf) {
   now.tf.last_set = now.time - 2 * second;
   now.tf.dropped = 3;
   now.tf.drop_reason = camera::CameraReason::not_finite;
@@ -225,7 +225,7 @@ TEST_F(SinkDiagnostics, ADelayHasItsMarginAndAge) {
   EXPECT_EQ(value_of(status(), "duplicate or late samples left out"), "3");
 }
 
-TEST_F(SinkDiagnostics, ADelayThatIsShorterThanSamplesTakeIsAWarning) {
+TEST_F(SinkDiagnostics, ADelayShorterThanTheLatencyIsAWarning) {
   now.form.delay = transport::Delay{6'000'000, 6'000'000, 6'000'000};
   before.departures = DepartureStatistics{100, before.time, 0, 0, 100, 90, 0, 0};
   now.departures = DepartureStatistics{200, now.time, 0, 100 * 12e6, 200, 190, -100 * 0.32, 0};
@@ -236,20 +236,22 @@ TEST_F(SinkDiagnostics, ADelayThatIsShorterThanSamplesTakeIsAWarning) {
   expect(status(), Level::ok, "sending");
 }
 
-TEST_F(SinkDiagnostics, WhatIsNotPacedHasNoMargin) { EXPECT_EQ(value_of(status(), "margin (fields)"), "no such key"); }
+TEST_F(SinkDiagnostics, ASinkWithoutPaceHasNoMargin) {
+  EXPECT_EQ(value_of(status(), "margin (fields)"), "no such key");
+}
 
 TEST_F(SinkDiagnostics, NothingWrittenYet) {
   now.sink = {};
   expect(status(), Level::ok, "open, nothing written yet");
 }
 
-TEST_F(SinkDiagnostics, WhatIsNotOpenYetIsNotCalledOpen) {
+TEST_F(SinkDiagnostics, ASinkThatIsNotOpenIsNotReportedAsOpen) {
   now.sink = {};
   now.state.is_open = false;
   expect(status(), Level::ok, "is being opened");
 }
 
-TEST_F(SinkDiagnostics, WhatCannotBeOpenedIsAnErrorWithTheReason) {
+TEST_F(SinkDiagnostics, ASinkThatCannotBeOpenedIsAnErrorWithTheReason) {
   now.state.is_open = false;
   now.state.cannot_open = "take.trk: cannot be written: it exists";
   fail(10);
@@ -264,24 +266,24 @@ TEST_F(SinkDiagnostics, AWriteThatTakesLongIsAnErrorWhileItLasts) {
   expect(status(), Level::error, "nothing is sent: no answer for 2.5 s; 120 records wait");
 }
 
-TEST_F(SinkDiagnostics, ANoticeIsShownAndNoFault) {
+TEST_F(SinkDiagnostics, ANoticeIsShownAndIsNotAFault) {
   now.state.notice = "recovered from an interrupted recording: take.recovered.trk";
   expect(status(), Level::ok, "take.recovered.trk");
 }
 
-TEST_F(SinkDiagnostics, NothingThatGoesOutIsAnError) {
+TEST_F(SinkDiagnostics, SendingNothingIsAnError) {
   fail(10);
   now.sink.last_success = before.time - 1;
   expect(status(), Level::error, "nothing is sent: the system refused: No space left on device");
   EXPECT_EQ(value_of(status(), "errors"), "10");
 }
 
-TEST_F(SinkDiagnostics, SomeThatDoNotAreAWarning) {
+TEST_F(SinkDiagnostics, FailedSetsAreAWarning) {
   fail(3);
   expect(status(), Level::warn, "3 sets were not sent completely: the system refused");
 }
 
-TEST_F(SinkDiagnostics, AfterwardsItIsInOrderAndTheErrorIsRemembered) {
+TEST_F(SinkDiagnostics, AfterwardsItIsOkAndTheErrorIsKept) {
   fail(3);
   now.sink.fails = false;
   before.sink.failed_sets = 3;
@@ -326,12 +328,12 @@ TEST_F(SinkDiagnostics, OnlyGrowthIsAFinding) {
   EXPECT_EQ(value_of(status(), "dropped"), "6");
 }
 
-TEST_F(SinkDiagnostics, AnIdThatIsLeftOutIsShownAndNoFault) {
+TEST_F(SinkDiagnostics, AnIdThatIsNotSentIsShownAndIsNotAFault) {
   now.sink.left_out_id = 7;
   expect(status(), Level::ok, "id 7 is not sent: the receiver accepts no ids");
 }
 
-TEST_F(SinkDiagnostics, QueuesAreShownWhereThereAreAny) {
+TEST_F(SinkDiagnostics, QueuesAreShownIfThereAreAny) {
   EXPECT_EQ(value_of(status(), "queued"), "no such key");
   now.queue = before.queue = OutletQueueStatistics{3, 5, false};
   now.queue->drops = 9;
@@ -340,7 +342,7 @@ TEST_F(SinkDiagnostics, QueuesAreShownWhereThereAreAny) {
   EXPECT_EQ(value_of(status(), "queue drops"), "9");
 }
 
-TEST_F(SinkDiagnostics, ARecordingThatCouldNotKeepUpIsAnErrorForGood) {
+TEST_F(SinkDiagnostics, ARecordingThatCouldNotKeepUpStaysAnError) {
   now.queue = before.queue = OutletQueueStatistics{0, 9, true};
   expect(status(), Level::error, "the recording has ended, because the sink could not keep up");
   expect(status(), Level::error, "9 records are missing");

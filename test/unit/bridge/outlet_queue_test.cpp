@@ -38,7 +38,7 @@ TEST(OutletQueue, KeepsTheOrderOfAllRecords) {
   EXPECT_EQ(queue.statistics().drops, 0u);
 }
 
-TEST(OutletQueue, AFullOneDropsTheOldestParameters) {
+TEST(OutletQueue, AFullQueueDropsTheOldestParameters) {
   OutletQueue queue(3, WhenFull::drop_oldest);
   for (std::uint64_t counter = 1; counter <= 3; ++counter) EXPECT_EQ(queue.push(params(counter)), Pushed::queued);
   EXPECT_EQ(queue.push(params(4)), Pushed::made_room);
@@ -48,7 +48,7 @@ TEST(OutletQueue, AFullOneDropsTheOldestParameters) {
   EXPECT_THAT(all_of(queue), ElementsAre(params(3), params(4), params(5)));
 }
 
-TEST(OutletQueue, ConstantsOutliveTheParametersBehindThem) {
+TEST(OutletQueue, ConstantsOutliveLaterParameters) {
   OutletQueue queue(2, WhenFull::drop_oldest);
   EXPECT_EQ(queue.push(constants(720)), Pushed::queued);
   EXPECT_EQ(queue.push(params(1)), Pushed::queued);
@@ -58,7 +58,7 @@ TEST(OutletQueue, ConstantsOutliveTheParametersBehindThem) {
   EXPECT_THAT(all_of(queue), ElementsAre(constants(720), params(3), params(4)));
 }
 
-TEST(OutletQueue, OfConstantsThatOutliveParametersTheNewestOfEveryIdIsKept) {
+TEST(OutletQueue, TheNewestConstantsOfEveryIdAreKept) {
   OutletQueue queue(1, WhenFull::drop_oldest);
   for (const auto& record : {constants(1, 7), constants(2, 8), constants(3, 7), constants(4, 7)}) {
     EXPECT_EQ(queue.push(record), Pushed::queued);
@@ -68,7 +68,7 @@ TEST(OutletQueue, OfConstantsThatOutliveParametersTheNewestOfEveryIdIsKept) {
   EXPECT_THAT(all_of(queue), ElementsAre(constants(2, 8), constants(4, 7), params(2)));
 }
 
-TEST(OutletQueue, KeptConstantsGoInTheOrderInWhichTheyCame) {
+TEST(OutletQueue, KeptConstantsStayInOrderOfArrival) {
   OutletQueue queue(1, WhenFull::drop_oldest);
   for (const auto& record : {constants(1, 7), constants(2, 8), constants(3, 7), constants(4, 9), constants(5, 8)}) {
     EXPECT_EQ(queue.push(record), Pushed::queued);
@@ -77,7 +77,7 @@ TEST(OutletQueue, KeptConstantsGoInTheOrderInWhichTheyCame) {
   EXPECT_THAT(all_of(queue), ElementsAre(constants(3, 7), constants(4, 9), constants(5, 8), params(1)));
 }
 
-TEST(OutletQueue, ConstantsOfTooManyIdsAreLostAndSaidSo) {
+TEST(OutletQueue, ConstantsOfTooManyIdsAreLostAndReported) {
   OutletQueue queue(1, WhenFull::drop_oldest);
   for (std::uint32_t id = 0; id < OutletWriter::most_ids + 3; ++id) {
     EXPECT_EQ(queue.push(constants(720, id)), id <= OutletWriter::most_ids ? Pushed::queued : Pushed::lost_constants);
@@ -86,7 +86,7 @@ TEST(OutletQueue, ConstantsOfTooManyIdsAreLostAndSaidSo) {
   EXPECT_EQ(all_of(queue).size(), OutletWriter::most_ids + 1);
 }
 
-TEST(OutletQueue, OneThatMustNotDropFailsForGood) {
+TEST(OutletQueue, AQueueThatMustNotDropFailsPermanently) {
   OutletQueue queue(2, WhenFull::fail);
   EXPECT_EQ(queue.push(params(1)), Pushed::queued);
   EXPECT_EQ(queue.push(params(2)), Pushed::queued);
@@ -98,7 +98,7 @@ TEST(OutletQueue, OneThatMustNotDropFailsForGood) {
   EXPECT_THAT(all_of(queue), ElementsAre(params(2)));
 }
 
-TEST(OutletQueue, WhoCanWaitWaitsForRoom) {
+TEST(OutletQueue, PushWaitsForRoomIfItMay) {
   OutletQueue queue(2, WhenFull::wait);
   constexpr std::uint64_t count = 1000;
   std::thread pusher([&queue] {
@@ -115,7 +115,7 @@ TEST(OutletQueue, WhoCanWaitWaitsForRoom) {
   EXPECT_EQ(queue.statistics().drops, 0u);
 }
 
-TEST(OutletQueue, WhoMayNotWaitAnyMoreDoesNot) {
+TEST(OutletQueue, PushStopsWaitingIfItMayNotWaitAnyMore) {
   std::atomic<bool> may_wait{true};
   OutletQueue queue(1, WhenFull::wait, [&may_wait] { return may_wait.load(); });
   EXPECT_EQ(queue.push(params(1)), Pushed::queued);
@@ -133,7 +133,7 @@ TEST(OutletQueue, RecordsKeepTheirTime) {
   EXPECT_EQ(queue.pop()->time.nanoseconds, 1234);
 }
 
-TEST(OutletQueue, APopThatWaitsForSomeTimeOnlySaysNoneAndIsNotTheEnd) {
+TEST(OutletQueue, APopThatTimesOutReturnsNoneAndIsNotTheEnd) {
   OutletQueue queue(2, WhenFull::fail);
   EXPECT_FALSE(queue.pop(std::chrono::milliseconds(10)));
   EXPECT_FALSE(queue.is_over());
@@ -144,14 +144,14 @@ TEST(OutletQueue, APopThatWaitsForSomeTimeOnlySaysNoneAndIsNotTheEnd) {
   EXPECT_TRUE(queue.is_over());
 }
 
-TEST(OutletQueue, AClosedOneTakesNothing) {
+TEST(OutletQueue, AClosedQueueAcceptsNothing) {
   OutletQueue queue(2, WhenFull::wait);
   queue.close();
   EXPECT_EQ(queue.push(params(1)), Pushed::refused);
   EXPECT_FALSE(queue.pop());
 }
 
-TEST(OutletQueue, ClosingWakesWhoWaitsForARecord) {
+TEST(OutletQueue, ClosingWakesAWaitingPop) {
   OutletQueue queue(2, WhenFull::fail);
   auto popped = std::async(std::launch::async, [&queue] { return queue.pop().has_value(); });
   queue.close();

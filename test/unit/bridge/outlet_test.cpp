@@ -60,7 +60,7 @@ TEST(Outlet, ASinkThatNeverBlocksIsWrittenInTheCallersThread) {
   EXPECT_EQ(outlet.statistics().sent.params, 1u);
 }
 
-TEST(Outlet, OneThatBlocksDoesNotKeepTheOthersFromTheirRate) {
+TEST(Outlet, ABlockingSinkDoesNotSlowDownOthers) {
   constexpr std::uint64_t sets = 5000;
   Gate live, segment, take;
   live.open();
@@ -81,7 +81,7 @@ TEST(Outlet, OneThatBlocksDoesNotKeepTheOthersFromTheirRate) {
   for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_EQ(taken[i].counter, i + 1);
 }
 
-TEST(Outlet, AttachingDropsTheOldestAndCountsThem) {
+TEST(Outlet, AttachingDropsTheOldestSetsAndCountsThem) {
   constexpr std::uint64_t sets = 500;
   Gate gate;
   std::uint64_t losses = 0;
@@ -128,7 +128,7 @@ TEST(Outlet, ConstantsOfTooManyIdsThatTheQueueCannotKeepAreReported) {
   EXPECT_THAT(reasons, testing::ElementsAre(OutletReason::too_many_ids));
 }
 
-TEST(Outlet, ARecordingThatCannotKeepUpEndsForGoodAndKeepsWhatItHas) {
+TEST(Outlet, ARecordingThatCannotKeepUpEndsAndKeepsItsRecords) {
   Gate gate;
   std::uint64_t losses = 0;
   OutletOptions options;
@@ -157,7 +157,7 @@ TEST(Outlet, ARecordingThatCannotKeepUpEndsForGoodAndKeepsWhatItHas) {
   EXPECT_EQ(losses, 2u);
 }
 
-TEST(Outlet, WhereTheCallerCanWaitNothingIsLost) {
+TEST(Outlet, IfTheCallerCanWaitNothingIsLost) {
   constexpr std::uint64_t sets = 15'000;
   for (const auto blocking : {Blocking::attaching, Blocking::storage}) {
     Gate gate;
@@ -191,7 +191,7 @@ TEST(Outlet, ClosingWritesWhatIsQueuedThenEndsTheSink) {
   EXPECT_EQ(outlet.statistics().last_fault.reason, transport::SinkReason::closed);
 }
 
-TEST(Outlet, OneThatIsDestroyedEndsLikewise) {
+TEST(Outlet, DestroyingItClosesItLikewise) {
   Gate gate;
   {
     Outlet outlet(endpoint_of(gate, Blocking::storage), {});
@@ -221,7 +221,7 @@ TEST(Outlet, IsOpenedInItsOwnThreadAndNothingIsLostMeanwhile) {
   EXPECT_EQ(outlet.state().busy_since, 0);
 }
 
-TEST(Outlet, WhatCannotBeOpenedIsTriedAgain) {
+TEST(Outlet, OpeningIsRetried) {
   Gate gate;
   gate.open();
   gate.set_opening_error("take.trk: it exists");
@@ -234,7 +234,7 @@ TEST(Outlet, WhatCannotBeOpenedIsTriedAgain) {
   EXPECT_EQ(outlet.state().cannot_open, "");
 }
 
-TEST(Outlet, WhatIsWrittenAndRefusedMeanwhileIsCountedAndNotTriedForEveryRecord) {
+TEST(Outlet, RefusedWritesAreCountedAndOpeningIsNotRetriedForEveryRecord) {
   Gate gate;
   gate.open();
   gate.set_opening_error("slot 7: nobody knows it");
@@ -247,7 +247,7 @@ TEST(Outlet, WhatIsWrittenAndRefusedMeanwhileIsCountedAndNotTriedForEveryRecord)
   EXPECT_EQ(outlet.state().cannot_open, "slot 7: nobody knows it") << "which says more than the fault of a write";
 }
 
-TEST(Outlet, WhereItMustBeOpenTheReasonIsThrown) {
+TEST(Outlet, WithMustOpenTheReasonIsThrown) {
   Gate gate;
   gate.set_opening_error("take.trk: it exists");
   OutletOptions options;
@@ -274,7 +274,7 @@ class StuckOutlet : public testing::Test {
   const std::shared_ptr<Gate> gate = std::make_shared<Gate>();
 };
 
-TEST_F(StuckOutlet, IsNotWaitedForAndSaysWhatIsMissing) {
+TEST_F(StuckOutlet, IsAbandonedAndReportsWhatIsMissing) {
   std::atomic<int> losses{0};
   {
     OutletOptions options;
@@ -297,7 +297,7 @@ TEST_F(StuckOutlet, IsNotWaitedForAndSaysWhatIsMissing) {
   EXPECT_EQ(losses, 0) << "nobody is called any more";
 }
 
-TEST_F(StuckOutlet, GoesOnByItselfWhenItCan) {
+TEST_F(StuckOutlet, ContinuesInTheBackgroundWhenItCan) {
   {
     Outlet outlet(endpoint_of(gate, Blocking::storage), {});
     outlet.write(constants());
@@ -310,7 +310,7 @@ TEST_F(StuckOutlet, GoesOnByItselfWhenItCan) {
   EXPECT_EQ(gate->count(), 8u);
 }
 
-TEST_F(StuckOutlet, OneThatIsBeingOpenedIsNotWaitedForEither) {
+TEST_F(StuckOutlet, ASinkThatIsBeingOpenedIsAbandonedLikewise) {
   gate->block_opening();
   Outlet outlet(endpoint_of(gate, Blocking::storage), {});
   ASSERT_TRUE(gate->was_tried(1));
@@ -319,7 +319,7 @@ TEST_F(StuckOutlet, OneThatIsBeingOpenedIsNotWaitedForEither) {
   EXPECT_EQ(outlet.unwritten(), 1u);
 }
 
-TEST_F(StuckOutlet, SeveralAreWaitedForAtTheSameTime) {
+TEST_F(StuckOutlet, SeveralSinksAreWaitedForAtTheSameTime) {
   constexpr int count = 6;
   std::vector<std::shared_ptr<Gate>> gates;
   std::vector<std::unique_ptr<Outlet>> outlets;
@@ -341,7 +341,7 @@ TEST_F(StuckOutlet, SeveralAreWaitedForAtTheSameTime) {
   gate->close();
 }
 
-TEST_F(StuckOutlet, OneThatOnlyNeedsTimeGetsIt) {
+TEST_F(StuckOutlet, ASlowSinkGetsTheTimeItNeeds) {
   gate->open();
   gate->set_delay(Outlet::patience / 5);
   Outlet outlet(endpoint_of(gate, Blocking::storage), {});
@@ -350,7 +350,7 @@ TEST_F(StuckOutlet, OneThatOnlyNeedsTimeGetsIt) {
   EXPECT_EQ(gate->count(), 15u);
 }
 
-TEST_F(StuckOutlet, OfASegmentOldSetsAreNotWorthAsMuch) {
+TEST_F(StuckOutlet, ASegmentIsNotWaitedForAsLong) {
   gate->open();
   gate->set_delay(Outlet::patience / 5);
   Outlet outlet(endpoint_of(gate, Blocking::attaching), {});
@@ -360,7 +360,7 @@ TEST_F(StuckOutlet, OfASegmentOldSetsAreNotWorthAsMuch) {
   gate->set_delay(std::chrono::milliseconds(0));
 }
 
-TEST_F(StuckOutlet, WhatIsNotLiveIsWaitedForAsLongAsItMayBe) {
+TEST_F(StuckOutlet, WithMayWaitASinkIsWaitedForAsLongAsAllowed) {
   std::atomic<bool> may_wait{true};
   OutletOptions options;
   options.may_wait = [&may_wait] { return may_wait.load(); };
@@ -374,7 +374,7 @@ TEST_F(StuckOutlet, WhatIsNotLiveIsWaitedForAsLongAsItMayBe) {
   EXPECT_FALSE(closed.get());
 }
 
-TEST(Outlet, TheTimeOfAFieldGoesWithIt) {
+TEST(Outlet, TheTimeOfAFieldIsPassedOn) {
   const test::TemporaryDirectory directory;
   Outlet outlet(endpoints::parse_sink("file:" + (directory / "%Y.trk")).value(), {});
   outlet.write(constants());
@@ -383,7 +383,7 @@ TEST(Outlet, TheTimeOfAFieldGoesWithIt) {
   EXPECT_THAT(outlet.name(), testing::HasSubstr("2026.trk"));
 }
 
-TEST(Outlet, TheResultOfClosingIsThatOfTheSink) {
+TEST(Outlet, CloseReturnsTheResultOfTheSink) {
   const test::TemporaryDirectory directory;
   Outlet outlet(endpoints::parse_sink("file:" + (directory / "take.trk")).value(), {});
   outlet.write(params(1));
@@ -412,7 +412,7 @@ TEST(Outlet, AFaultInItsOwnThreadIsReportedAndCounted) {
   EXPECT_EQ(statistics.sent.errors, 2u);
 }
 
-TEST(Outlet, WhatTheEndpointDoesNotSayIsTheDefault) {
+TEST(Outlet, OptionsThatTheEndpointDoesNotSetHaveDefaults) {
   Gate gate;
   transport::SinkForm given;
   given.format = wire::euler | wire::field_of_view;

@@ -14,7 +14,7 @@
 namespace trk_bridge::test {
 namespace {
 
-TEST(OutletUnload, ASinkThatIsLeftToItselfGoesOnWhenItsLibraryIsUnloaded) {
+TEST(OutletUnload, AnAbandonedSinkContinuesWhenItsLibraryIsUnloaded) {
   constexpr int capacity = 4096, records = capacity + 500;
   const TemporaryDirectory directory;
   const std::string fifo = directory / "fifo";

@@ -63,7 +63,7 @@ TEST_F(OutletWriterTest, WithoutAFormatEveryNumberStays) {
   EXPECT_THAT(losses, IsEmpty());
 }
 
-TEST_F(OutletWriterTest, OneFeedForReceiversOfTwoFormatsEachRight) {
+TEST_F(OutletWriterTest, OneFeedIsRightForReceiversOfTwoFormats) {
   test::Gate other;
   other.open();
   auto aximmetry = writer(form_of_preset("aximmetry"), Feed::one_camera);
@@ -100,7 +100,7 @@ TEST_F(OutletWriterTest, OneFeedForReceiversOfTwoFormatsEachRight) {
   EXPECT_NEAR(first->lens.image_distance, second->lens.image_distance, 1e-9);
 }
 
-TEST_F(OutletWriterTest, TheIdOfTheFormCountsForParamsAndConstants) {
+TEST_F(OutletWriterTest, TheIdOfTheFormIsUsedForParamsAndConstants) {
   transport::SinkForm form;
   form.id = 3;
   auto outlet = writer(form);
@@ -110,7 +110,7 @@ TEST_F(OutletWriterTest, TheIdOfTheFormCountsForParamsAndConstants) {
   EXPECT_EQ(outlet.statistics().last_id, 3u);
 }
 
-TEST_F(OutletWriterTest, AReceiverThatTakesNoIdIsSentNone) {
+TEST_F(OutletWriterTest, AReceiverWithoutIdsIsSentNone) {
   auto form = form_of_preset("unreal_trackmen");
   form.id = 4;
   auto outlet = writer(form);
@@ -122,7 +122,7 @@ TEST_F(OutletWriterTest, AReceiverThatTakesNoIdIsSentNone) {
   EXPECT_EQ(outlet.statistics().left_out_id, 4u);
 }
 
-TEST_F(OutletWriterTest, OnlyNewConstantsGoOut) {
+TEST_F(OutletWriterTest, OnlyNewConstantsAreSent) {
   auto outlet = writer(form_of("euler"));
   outlet.write(constants());
   outlet.write(constants());
@@ -133,7 +133,7 @@ TEST_F(OutletWriterTest, OnlyNewConstantsGoOut) {
   EXPECT_EQ(gate.constants().size(), 2u);
 }
 
-TEST_F(OutletWriterTest, OneCamerasConstantsServeAllIdsAndAreSentAgainWhenTheIdChanges) {
+TEST_F(OutletWriterTest, ConstantsOfOneCameraAreUsedForAllIdsAndSentAgainWhenTheIdChanges) {
   auto outlet = writer(form_of("euler field_of_view"), Feed::one_camera);
   outlet.write(constants(720, 7));
   outlet.write(params(1, 8));
@@ -157,7 +157,7 @@ TEST_F(OutletWriterTest, ConstantsAreKeptById) {
   EXPECT_EQ(gate.params().size(), 1u);
 }
 
-TEST_F(OutletWriterTest, TheNetworkIsNotTrustedWithMemory) {
+TEST_F(OutletWriterTest, TheNumberOfIdsIsLimited) {
   auto outlet = writer();
   for (std::uint32_t id = 0; id < 300; ++id) outlet.write(constants(720, id));
   EXPECT_EQ(gate.constants().size(), OutletWriter::most_ids);
@@ -170,7 +170,7 @@ TEST_F(OutletWriterTest, TheNetworkIsNotTrustedWithMemory) {
   EXPECT_EQ(gate.params().size(), 1u);
 }
 
-TEST_F(OutletWriterTest, ConstantsWithoutAPictureMakeTheOnesBeforeInvalid) {
+TEST_F(OutletWriterTest, InvalidConstantsInvalidateEarlierOnes) {
   auto outlet = writer(form_of("euler field_of_view"));
   outlet.write(constants(720));
   outlet.write(constants(-1));
@@ -185,7 +185,7 @@ TEST_F(OutletWriterTest, ConstantsWithoutAPictureMakeTheOnesBeforeInvalid) {
   EXPECT_EQ(gate.params().size(), 1u);
 }
 
-TEST_F(OutletWriterTest, ConstantsThatCouldNotBeWrittenGoBeforeEveryLaterSetUntilTheyCould) {
+TEST_F(OutletWriterTest, ConstantsThatCouldNotBeWrittenAreRetriedBeforeEverySet) {
   auto outlet = writer(form_of("euler"));
   gate.set_fault(SinkFault{SinkReason::system, {}, ENOSPC});
   outlet.write(constants());
@@ -206,7 +206,7 @@ TEST_F(OutletWriterTest, ConstantsThatCouldNotBeWrittenGoBeforeEveryLaterSetUnti
   EXPECT_GT(outlet.statistics().last_success, outlet.statistics().last_failure);
 }
 
-TEST_F(OutletWriterTest, ConstantsWithoutAPictureEndTheRepeatsOfThoseThatTheSinkRefused) {
+TEST_F(OutletWriterTest, InvalidConstantsEndTheRetriesOfRefusedOnes) {
   for (const auto& form : {transport::SinkForm{}, form_of("euler")}) {
     auto outlet = writer(form);
     outlet.write(constants(720));
@@ -228,7 +228,7 @@ TEST_F(OutletWriterTest, ConstantsWithoutAPictureEndTheRepeatsOfThoseThatTheSink
   }
 }
 
-TEST_F(OutletWriterTest, WhatIsNoCameraIsDroppedFromTheFeedOfOneCamera) {
+TEST_F(OutletWriterTest, InvalidCamerasAreDroppedFromTheFeedOfOneCamera) {
   auto strict = writer(form_of("euler"), Feed::one_camera);
   auto nowhere = params(1);
   nowhere.euler.pan = std::nan("");

@@ -96,13 +96,13 @@ void expect_right(const std::vector<Sent>& sent, std::int64_t delay) {
   EXPECT_GT(checked, 300);
 }
 
-TEST(PacedCamera, APanAndAZoomAreRightAThirdOfAFieldLate) {
+TEST(PacedCamera, PanAndZoomAreRightAThirdOfAFieldLate) {
   PacedCamera camera(50, {delayed(6)});
   expect_right(play(camera, samples(500)), 6 * ms);
   EXPECT_EQ(camera.statistics(0).negative, 0u);
 }
 
-TEST(PacedCamera, SoTheyAreAtAnyDelayAndWithoutARate) {
+TEST(PacedCamera, PanAndZoomAreRightAtAnyDelayAndWithoutARate) {
   for (const double delay : {6.0, 13.7, 40.0, 400.0}) {
     PacedCamera camera(std::nullopt, {delayed(delay)});
     expect_right(play(camera, samples(500)), static_cast<std::int64_t>(delay * 1e6));
@@ -110,7 +110,7 @@ TEST(PacedCamera, SoTheyAreAtAnyDelayAndWithoutARate) {
 }
 
 /// The number that is sent is an angle of view; its focal length is held against the one that the camera had.
-TEST(PacedCamera, AnAngleOfViewIsAsRightAsAFocalLength) {
+TEST(PacedCamera, AnAngleOfViewIsAsExactAsAFocalLength) {
   const auto as_angle = [](std::int64_t time) {
     auto params = record_at(time);
     params.format |= wire::field_of_view;
@@ -123,7 +123,7 @@ TEST(PacedCamera, AnAngleOfViewIsAsRightAsAFocalLength) {
   expect_right(sent, 6 * ms);
 }
 
-TEST(PacedCamera, TheAgeIsTheSameWhateverThePhaseOfTheStart) {
+TEST(PacedCamera, TheAgeDoesNotDependOnThePhaseOfTheStart) {
   for (const double delay : {0.0, 6.0, 25.0}) {
     for (const std::int64_t latency : {ms / 10, 7 * ms + 123'456, 19 * ms}) {
       // The samples' times are as late as they arrive, as those of a node beside the crane.
@@ -142,7 +142,7 @@ TEST(PacedCamera, TheAgeIsTheSameWhateverThePhaseOfTheStart) {
   }
 }
 
-TEST(PacedCamera, EachPartHasADelayOfItsOwn) {
+TEST(PacedCamera, EachPartHasItsOwnDelay) {
   PacedCamera camera(50, {{{30 * ms, 6 * ms, 14 * ms}, 0}});
   for (const auto& one : play(camera, samples(200))) {
     if (one.at < start + second) continue;
@@ -172,7 +172,7 @@ TEST(PacedCamera, ATiltThrough90DegreesIsEven) {
   }
 }
 
-TEST(PacedCamera, OneLostSampleIsNotSeenAtADelayOfAFieldOrMore) {
+TEST(PacedCamera, OneLostSampleIsNotVisibleWithADelayOfAFieldOrMore) {
   for (const double delay : {20.5, 30.0}) {
     auto all = samples(300);
     for (const int lost : {103, 155, 208}) all.erase(all.begin() + lost);
@@ -201,7 +201,7 @@ TEST(PacedCamera, AfterALostSampleWithoutADelayDeparturesKeepTheirRhythm) {
   }
 }
 
-TEST(PacedCamera, LateSamplesNeverMakeItGoBack) {
+TEST(PacedCamera, LateSamplesNeverMoveItBack) {
   auto all = samples(400);
   for (std::size_t i = 60; i < all.size(); i += 7) {
     all[i].arrival += static_cast<std::int64_t>(i % 5) * 13 * ms;
@@ -221,7 +221,7 @@ TEST(PacedCamera, LateSamplesNeverMakeItGoBack) {
   }
 }
 
-TEST(PacedCamera, LeadGoesOnWithoutSamplesAndStops) {
+TEST(PacedCamera, LeadExtrapolatesWithoutSamplesAndStops) {
   for (const std::int64_t lead : {std::int64_t{0}, 15 * ms, 40 * ms}) {
     auto all = samples(100);
     const std::int64_t newest = all.back().time;
@@ -253,7 +253,7 @@ TEST(PacedCamera, MarginAndHowOftenItWasNegative) {
   EXPECT_NEAR(bad.age_sum / static_cast<double>(bad.sent), 12.4e6, 0.2e6);
 }
 
-TEST(PacedCamera, APartWithoutADelayIsAsNewAsItIsAndHasNoMargin) {
+TEST(PacedCamera, APartWithoutADelayIsTheNewestAndHasNoMargin) {
   PacedCamera camera(50, {{{30 * ms, 30 * ms, 0}, 0}});
   play(camera, samples(300));
   EXPECT_EQ(camera.statistics(0).negative, 0u);
@@ -319,7 +319,7 @@ TEST(PacedCamera, AClockThatIsSetBackALittleIsWaitedFor) {
 }
 
 /// A take's time code is of any day: a sample is as new as its arrival, and the times that are sent are the take's.
-TEST(PacedCamera, TimesOfAnotherDayAreTakenByTheirDistance) {
+TEST(PacedCamera, TimesOfAnotherDayAreUsedRelatively) {
   PacedCamera camera(50, {delayed(30)});
   auto all = samples(200);
   constexpr std::int64_t day = 86'400 * second;
@@ -331,7 +331,7 @@ TEST(PacedCamera, TimesOfAnotherDayAreTakenByTheirDistance) {
   }
 }
 
-TEST(PacedCamera, WithoutTimesArrivalsCount) {
+TEST(PacedCamera, WithoutTimesArrivalsAreUsed) {
   PacedCamera camera(50, {delayed(30)});
   auto all = samples(200);
   for (auto& sample : all) sample.time = 0;
@@ -341,7 +341,7 @@ TEST(PacedCamera, WithoutTimesArrivalsCount) {
 }
 
 /// Without times of their own a late record and a duplicate look new; their counters say what they are.
-TEST(PacedCamera, OldRecordsThatArriveLateAreNotTakenForNewOnes) {
+TEST(PacedCamera, OldRecordsThatArriveLateAreNotTreatedAsNew) {
   PacedCamera camera(50, {delayed(6)});
   auto all = samples(300);
   for (std::size_t i = 40; i + 3 < all.size(); i += 25) {
@@ -371,7 +371,7 @@ TEST(PacedCamera, AnotherFormatIsNotInterpolatedWithTheOneBefore) {
   }
 }
 
-TEST(PacedCamera, WhatIsNoCameraIsRefusedAndCostsNoOther) {
+TEST(PacedCamera, InvalidCamerasAreRefusedWithoutAffectingOthers) {
   PacedCamera camera(50, {delayed(30)});
   auto bad = record_at(start);
   bad.euler.x = std::nan("");

@@ -10,7 +10,7 @@ namespace {
 using test::constants;
 using test::params;
 
-TEST(ParamsToTrk, ParametersGoAsTheyCame) {
+TEST(ParamsToTrk, ParametersAreNotChanged) {
   ParamsToTrk input;
   const auto p = params(1000, 7);
   const auto set = input.use(p, 5);
@@ -22,7 +22,7 @@ TEST(ParamsToTrk, ParametersGoAsTheyCame) {
   EXPECT_EQ(input.statistics().constants, ConstantsOrigin::none);
 }
 
-TEST(ParamsToTrk, ConstantsHaveTheIdOfTheParamsTheyGoWith) {
+TEST(ParamsToTrk, ConstantsHaveTheIdOfTheirParams) {
   ParamsToTrk input;
   input.use(constants(720, 3));
   EXPECT_EQ(input.use(params(1, 7), 0).constants, constants(720, 7));
@@ -31,7 +31,7 @@ TEST(ParamsToTrk, ConstantsHaveTheIdOfTheParamsTheyGoWith) {
   EXPECT_EQ(input.use(params(4, 7), 0).constants, constants(720, 7)) << "with the id, again";
 }
 
-TEST(ParamsToTrk, ChangedConstantsGoAgainUnchangedOnesDoNot) {
+TEST(ParamsToTrk, ChangedConstantsAreSentAgainUnchangedOnesAreNot) {
   ParamsToTrk input;
   input.use(constants());
   EXPECT_TRUE(input.use(params(1), 0).constants);
@@ -43,14 +43,14 @@ TEST(ParamsToTrk, ChangedConstantsGoAgainUnchangedOnesDoNot) {
   EXPECT_EQ(input.use(params(3), 0).constants, other);
 }
 
-TEST(ParamsToTrk, TheNewestConstantsCountWhateverTheirId) {
+TEST(ParamsToTrk, TheNewestConstantsAreUsedWhateverTheirId) {
   ParamsToTrk input;
   input.use(constants(720, 7));
   input.use(constants(1920, 9));
   EXPECT_EQ(input.use(params(1, 7), 0).constants, constants(1920, 7));
 }
 
-TEST(ParamsToTrk, ConstantsOfTheParameterCountUntilOthersCome) {
+TEST(ParamsToTrk, ConstantsOfTheParameterAreUsedUntilOthersArrive) {
   ParamsToTrk input(constants(1920));
   EXPECT_EQ(input.statistics().constants, ConstantsOrigin::parameter);
   EXPECT_EQ(input.use(params(1), 0).constants->image_width, 1920);
@@ -60,7 +60,7 @@ TEST(ParamsToTrk, ConstantsOfTheParameterCountUntilOthersCome) {
   EXPECT_EQ(input.statistics().constants, ConstantsOrigin::own);
 }
 
-TEST(ParamsToTrk, ConstantsWithoutAPictureAreIgnored) {
+TEST(ParamsToTrk, InvalidConstantsAreIgnored) {
   ParamsToTrk input;
   auto bad = constants();
   bad.blank_left = 720;

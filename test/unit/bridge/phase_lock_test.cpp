@@ -66,7 +66,7 @@ std::vector<std::int64_t> arrivals_at(
 double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 double smallest(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
 
-TEST(PhaseLock, DeparturesAreJustBehindEvenSamplesOfTheirRate) {
+TEST(PhaseLock, DeparturesFollowEvenSamplesOfTheirRate) {
   for (const double rate : {50.0, 50.0 * 1.001, 50 / 1.001}) {
     PhaseLock lock(50);
     const auto done = run(lock, arrivals_at(rate, 500));
@@ -76,7 +76,7 @@ TEST(PhaseLock, DeparturesAreJustBehindEvenSamplesOfTheirRate) {
   }
 }
 
-TEST(PhaseLock, WithoutARateItHasThatOfTheSamples) {
+TEST(PhaseLock, WithoutARateItUsesThatOfTheSamples) {
   for (const double rate : {24 / 1.001, 50.0, 60 / 1.001, 120 / 1.001}) {
     PhaseLock lock;
     EXPECT_FALSE(lock.next(start)) << "not known yet";
@@ -99,7 +99,7 @@ TEST(PhaseLock, OneRateMayBeAMultipleOfTheOther) {
   for (const double age : two_a_sample.ages(2e9)) EXPECT_NEAR(std::remainder(age, 20 * ms), 0.5 * ms, 0.5 * ms);
 }
 
-TEST(PhaseLock, RatesThatAreNotKeepTheirOwn) {
+TEST(PhaseLock, RatesThatAreNotMultiplesAreIndependent) {
   PhaseLock lock(50);
   const auto done = run(lock, arrivals_at(60, 600));
   EXPECT_FALSE(lock.is_locked());
@@ -108,7 +108,7 @@ TEST(PhaseLock, RatesThatAreNotKeepTheirOwn) {
 }
 
 /// Departures have the rhythm of the samples and not of their arrivals, just behind where most of them arrive.
-TEST(PhaseLock, JitterBecomesAnEvenRhythmBehindTheSamples) {
+TEST(PhaseLock, JitterBecomesAnEvenRhythmAfterTheSamples) {
   std::mt19937 random(7);
   std::normal_distribution<double> gauss(5 * ms, 1 * ms);
   std::exponential_distribution<double> exponential(1 / (1 * ms));
@@ -127,7 +127,7 @@ TEST(PhaseLock, JitterBecomesAnEvenRhythmBehindTheSamples) {
 }
 
 /// A machine that is busy holds one of ten samples back by 4 ms; the others are not sent any older for that.
-TEST(PhaseLock, RareDelaysDoNotMakeTheOthersOld) {
+TEST(PhaseLock, RareDelaysDoNotDelayTheOthers) {
   std::mt19937 random(7);
   std::bernoulli_distribution is_held(0.1);
   PhaseLock lock(50);
@@ -157,7 +157,7 @@ TEST(PhaseLock, ANewPhaseIsFollowedWithinHalfASecond) {
   EXPECT_LT(largest(done.ages(10.6e9)), 1 * ms);
 }
 
-TEST(PhaseLock, AfterAPauseItBeginsAgain) {
+TEST(PhaseLock, AfterAPauseItStartsAgain) {
   auto arrivals = arrivals_at(50, 1000);
   for (std::size_t i = 500; i < arrivals.size(); ++i) arrivals[i] += 5'007'000'000;
   PhaseLock lock(50);

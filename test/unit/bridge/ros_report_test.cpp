@@ -30,20 +30,20 @@ class RosDiagnostics : public ::testing::Test {
   RosReport now;
 };
 
-TEST_F(RosDiagnostics, AllIsWell) {
+TEST_F(RosDiagnostics, NoFindings) {
   expect(Level::ok, "the master knows this node; ROS time is the system's clock");
   now.is_simulated = true;
   expect(Level::ok, "the master knows this node; ROS time is /clock");
 }
 
-TEST_F(RosDiagnostics, AMasterThatIsAwayOrNew) {
+TEST_F(RosDiagnostics, AMasterThatIsSilentOrRestarted) {
   now.master = MasterState::silent;
   expect(Level::warn, "the master at http://studio:11311 does not answer");
   now.master = MasterState::forgot;
   expect(Level::warn, "the master does not know this node any more");
 }
 
-TEST_F(RosDiagnostics, SimulatedTimeThatStands) {
+TEST_F(RosDiagnostics, SimulatedTimeThatStandsStill) {
   now.ros_time_moved = now.time - 3 * second;
   expect(Level::ok, "the system's clock");
   now.is_simulated = true;

@@ -19,14 +19,14 @@ double to_seconds(std::int64_t stamp) {
   return static_cast<double>(stamp / second) + 1e-9 * static_cast<double>(stamp % second);
 }
 
-TEST(Stamper, IsArrivalLessDelayToTheNanosecond) {
+TEST(Stamper, IsArrivalMinusDelayToTheNanosecond) {
   Stamper stamper(milliseconds(40));
   EXPECT_EQ(stamper.stamp(today), 1'700'000'000 * second + 83'456'789);
   EXPECT_EQ(stamper.stamp(today + 20'000'000), 1'700'000'000 * second + 103'456'789);
   EXPECT_EQ(stamper.held(), 0u);
 }
 
-TEST(Stamper, StrictlyIncreasesWhenTheClockStandsOrStepsBack) {
+TEST(Stamper, StrictlyIncreasesIfTheClockStopsOrStepsBack) {
   Stamper stamper(nanoseconds(0));
   std::vector<std::int64_t> stamps;
   for (const std::int64_t offset : {0L, 0L, -second / 2, -second / 4, 1L, 2000L, second}) {
@@ -44,7 +44,7 @@ TEST(Stamper, StrictlyIncreasesWhenTheClockStandsOrStepsBack) {
   EXPECT_EQ(stamper.held(), 5u);
 }
 
-TEST(Stamper, TellsHowFarItIsAhead) {
+TEST(Stamper, ReportsHowFarItIsAhead) {
   Stamper stamper(nanoseconds(0));
   ASSERT_TRUE(stamper.stamp(today));
   ASSERT_TRUE(stamper.stamp(today - second / 2));
@@ -64,7 +64,7 @@ TEST(Stamper, FollowsAClockThatStepsBackByMoreThanASecond) {
   EXPECT_EQ(stamper.last_step(), 3600 * second);
 }
 
-TEST(Stamper, RefusesWhatRosTimeCannotTellAndGoesOn) {
+TEST(Stamper, RefusesTimesOutsideOfRosTimeAndContinues) {
   Stamper stamper(milliseconds(5));
   EXPECT_FALSE(stamper.stamp(-1));
   EXPECT_FALSE(stamper.stamp(0));
@@ -81,7 +81,7 @@ TEST(Stamper, EndsWithRosTime) {
   EXPECT_FALSE(stamper.stamp(last)) << "nothing later can be a stamp";
 }
 
-TEST(Stamper, UnorderedIsArrivalLessDelayWhateverCameBefore) {
+TEST(Stamper, UnorderedIsArrivalMinusDelayWhateverCameBefore) {
   Stamper stamper(milliseconds(5));
   ASSERT_TRUE(stamper.stamp(today));
   EXPECT_EQ(stamper.unordered(today - second), today - second - 5'000'000);

@@ -67,7 +67,7 @@ TEST(TfToTrk, PoseLensAndParametersInOneSet) {
   EXPECT_EQ(converter.statistics().last_stamp, field(0));
 }
 
-TEST(TfToTrk, AnOpticalFrameIsTurnedBack) {
+TEST(TfToTrk, AnOpticalFrameIsConvertedToCameraAxes) {
   auto configured = options();
   // x right, y down, z forward in x right, y forward, z up.
   Eigen::Isometry3d camera_T_optical = Eigen::Isometry3d::Identity();
@@ -124,14 +124,14 @@ TEST(TfToTrk, AClockThatIsSetBackKeepsTheNewestLensAndWaitsForTheNext) {
   EXPECT_NEAR(converter.make(pose(), earlier + second / 50, 0)->params.fov, 20, 1e-9);
 }
 
-TEST(TfToTrk, WhereClocksDoNotAgreeTheNewestLensIsUsed) {
+TEST(TfToTrk, IfClocksDifferTheNewestLensIsUsed) {
   TfToTrk converter(options());
   for (int n = 0; n < 100; ++n) converter.use(info(2000 + 20 * n), field(n), 0);
   EXPECT_NEAR(converter.make(pose(), start - 60 * second, 0)->params.fov, 19.9, 1e-9);
   EXPECT_NEAR(converter.make(pose(), start + 3600 * second, 0)->params.fov, 19.9, 1e-9);
 }
 
-TEST(TfToTrk, NothingWithoutALens) {
+TEST(TfToTrk, WithoutALensThereIsNoSet) {
   TfToTrk converter(options());
   EXPECT_FALSE(converter.make(pose(), field(0), 0));
   EXPECT_EQ(converter.statistics().sets, 0u);
@@ -141,7 +141,7 @@ TEST(TfToTrk, NothingWithoutALens) {
   EXPECT_EQ(made->params.counter, 1u) << "what was not sent was not counted";
 }
 
-TEST(TfToTrk, ALensGoesWithThePoseOfItsStamp) {
+TEST(TfToTrk, ALensIsUsedForThePoseWithItsStamp) {
   TfToTrk converter(options());
   for (int n = 0; n < 10; ++n) converter.use(info(2000 + 200 * n), field(n), 0);
   EXPECT_NEAR(converter.make(pose(), field(4), 0)->params.fov, 14, 1e-9);
@@ -151,7 +151,7 @@ TEST(TfToTrk, ALensGoesWithThePoseOfItsStamp) {
   EXPECT_NEAR(converter.make(pose(), static_stamp, 0)->params.fov, 19, 1e-9);
 }
 
-TEST(TfToTrk, ExpectsALensAsLongAsTheyComeWithThePoses) {
+TEST(TfToTrk, ExpectsALensAsLongAsTheyArriveWithThePoses) {
   TfToTrk converter(options());
   EXPECT_TRUE(converter.expects_lens(field(0)));
   converter.use(info(), field(0), 0);
@@ -190,7 +190,7 @@ TEST(TfToTrk, APoseThatWasDroppedIsNotNewAgain) {
   EXPECT_EQ(converter.statistics().last_stamp, 0) << "of no set";
 }
 
-TEST(TfToTrk, FitsOnlyWhatChanged) {
+TEST(TfToTrk, FitsOnlyChangedCalibrations) {
   TfToTrk converter(options());
   auto i = info();
   for (int n = 0; n < 10; ++n) converter.use(i, field(n), 0);
@@ -203,7 +203,7 @@ TEST(TfToTrk, FitsOnlyWhatChanged) {
   EXPECT_EQ(converter.statistics().fits, 3u);
 }
 
-TEST(TfToTrk, ThePictureOfCameraInfoMakesTheConstants) {
+TEST(TfToTrk, TheImageSizeOfCameraInfoIsUsedForTheConstants) {
   auto configured = options();
   configured.chip.blank_left = 20;
   configured.chip.blank_right = 10;
@@ -236,7 +236,7 @@ TEST(TfToTrk, FocusAndApertureOfTheLensTopic) {
   EXPECT_EQ(converter.statistics().bad_lenses, 2u);
 }
 
-TEST(TfToTrk, CountsWhatTrkCannotCarryOfTheLens) {
+TEST(TfToTrk, MeasuresWhatTrkCannotRepresentOfTheLens) {
   TfToTrk converter(options());
   auto i = info();
   i.d = {-0.1, 0.01, 0.002, 0, 0};
@@ -257,7 +257,7 @@ struct Refused {
 
 class RefusesCameraInfo : public ::testing::TestWithParam<Refused> {};
 
-TEST_P(RefusesCameraInfo, NothingIsSentUntilAnotherComes) {
+TEST_P(RefusesCameraInfo, NothingIsSentUntilAnotherArrives) {
   TfToTrk converter(options());
   converter.use(info(), field(0), 0);
   auto bad = info();

@@ -40,14 +40,14 @@ class Gate : public ::testing::Test {
   std::int64_t now = 0;  // ns of the steady clock; ROS time began at `start`
 };
 
-TEST_F(Gate, WhatComesInTimeIsUsed) {
+TEST_F(Gate, TransformsInTimeAreUsed) {
   for (int n = 0; n < 100; ++n) EXPECT_EQ(next(), Verdict::use);
   EXPECT_EQ(judge("camera", start + now - second / 2), Verdict::use) << "late";
   EXPECT_EQ(judge("camera", start + now + second / 2), Verdict::use) << "dated ahead by its publisher";
   EXPECT_EQ(gate.statistics().refused, 0u);
 }
 
-TEST_F(Gate, OneThatLiesFarAheadCostsNothing) {
+TEST_F(Gate, ATransformFarAheadIsRefused) {
   for (int n = 0; n < 200; ++n) {
     EXPECT_EQ(next(), Verdict::use);
     EXPECT_EQ(judge("camera", start + 1'000'000 * second), Verdict::refuse);
@@ -90,7 +90,7 @@ TEST_F(Gate, AllLinksOfOneClockStartOverOnce) {
   EXPECT_EQ(chain.statistics().restarts, 2u);
 }
 
-TEST_F(Gate, WhatTheCameraDoesNotHangOnStartsNothingOver) {
+TEST_F(Gate, UnrelatedLinksDoNotRestart) {
   for (int n = 0; n < 10; ++n) EXPECT_EQ(next(0, "robot"), Verdict::use);
   EXPECT_EQ(refused_in_a_row(-60 * second, "robot", 100), 100);
   EXPECT_EQ(gate.statistics().restarts, 0u);
@@ -101,13 +101,13 @@ TEST_F(Gate, WhatTheCameraDoesNotHangOnStartsNothingOver) {
   EXPECT_EQ(next(-60 * second, "robot"), Verdict::restart);
 }
 
-TEST_F(Gate, ACircleOfFramesIsNoTrap) {
+TEST_F(Gate, ALoopOfFramesDoesNotHang) {
   EXPECT_EQ(gate.judge({"b", "camera", start, "/driver"}, start, now), Verdict::use);
   EXPECT_EQ(gate.judge({"camera", "b", start, "/driver"}, start, now), Verdict::use);
   EXPECT_EQ(judge("robot", start + 60 * second), Verdict::refuse);
 }
 
-TEST_F(Gate, RosTimeThatGoesBackStartsOverAtOnce) {
+TEST_F(Gate, RosTimeThatGoesBackRestartsAtOnce) {
   EXPECT_FALSE(gate.ros_time_went_back(start));
   EXPECT_FALSE(gate.ros_time_went_back(start - second / 2));
   EXPECT_FALSE(gate.ros_time_went_back(start + 100 * second));

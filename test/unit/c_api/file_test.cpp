@@ -50,7 +50,7 @@ TEST_F(File, passes_a_take) {
 
 constexpr const char* head = "DMC01\n10:20:30:12:2\n720 576 10 10 0 0 6.4 4.8 6.5 4.9\n";
 
-TEST_F(File, what_cannot_be_read_fails_and_what_is_no_take_is_of_an_invalid_version) {
+TEST_F(File, unreadable_files_fail_and_other_files_are_of_an_invalid_version) {
   EXPECT_EQ(trkFileOpenRead(name.c_str(), time_code, &c, &handle), trkFailed);
   EXPECT_EQ(trkFileOpenRead(directory.path().c_str(), time_code, &c, &handle), trkFailed);
   for (const char* text : {"", "DMC01\n", "DMC01\n10:20:30:12:2\n", "DMC01\n10:20:30:12:2\n720 576\n", "DMC02\n"}) {
@@ -61,7 +61,7 @@ TEST_F(File, what_cannot_be_read_fails_and_what_is_no_take_is_of_an_invalid_vers
   EXPECT_STREQ(time_code, "");
 }
 
-TEST_F(File, a_take_that_was_cut_gives_all_its_whole_lines) {
+TEST_F(File, a_truncated_take_gives_all_complete_lines) {
   std::ofstream(name) << head << "1 1 2 3 4 5 6 7 0 0 0 0 0 0 1\n1 1 2 3 4 5 6 7 0 0 0 0 0 0 2\n1 1 2 3 4 5 6";
   ASSERT_EQ(trkFileOpenRead(name.c_str(), time_code, &c, &handle), trkOK);
   ASSERT_EQ(trkFileReadParams(handle, &p), trkOK);
@@ -72,7 +72,7 @@ TEST_F(File, a_take_that_was_cut_gives_all_its_whole_lines) {
   EXPECT_EQ(trkFileClose(handle), trkOK);
 }
 
-TEST_F(File, a_line_that_is_not_sound_costs_itself_alone) {
+TEST_F(File, only_the_malformed_line_is_lost) {
   std::ofstream(name) << head
                       << "1 1 2 3 4 5 6 7 0 0 0 0 0 0 1\nno record\n# a comment\n1 1 2 3 4 5 6 7 0 0 0 0 0 0 3\n";
   ASSERT_EQ(trkFileOpenRead(name.c_str(), time_code, &c, &handle), trkOK);

@@ -132,7 +132,7 @@ TEST_F(Memory, configures_every_documented_flag) {
   EXPECT_EQ(trkMemRecreate, 0x10);
 }
 
-TEST_F(Memory, recreate_replaces_it_when_all_others_have_left) {
+TEST_F(Memory, recreate_replaces_it_when_all_others_have_detached) {
   trkMemConfigure(trkMemDefault | trkMemRecreate);
   ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
   ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
@@ -152,7 +152,7 @@ std::size_t size_of(const FreeSlot& slot) {
   return ::shmctl(slot.segment(), IPC_STAT, &state) == 0 ? state.shm_segsz : 0;
 }
 
-TEST_F(Memory, is_made_for_every_program_of_today_unless_the_environment_says_otherwise) {
+TEST_F(Memory, has_the_layout_of_current_programs_unless_the_environment_sets_another) {
   ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
   EXPECT_EQ(size_of(slot), 544U);
   trkMemCloseAll();
@@ -175,7 +175,7 @@ TEST_F(Memory, is_made_for_every_program_of_today_unless_the_environment_says_ot
   }
 }
 
-TEST_F(Memory, a_reader_that_is_alone_lets_go_and_comes_back) {
+TEST_F(Memory, a_reader_alone_detaches_and_reattaches) {
   ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
   EXPECT_TRUE(becomes_true([&] {
     EXPECT_EQ(trkMemReadParams(reader, &p), trkUnavailable);

@@ -81,7 +81,7 @@ TEST_P(Net, every_call_sends_constants) {
   }
 }
 
-TEST_P(Net, a_malformed_datagram_costs_itself_alone) {
+TEST_P(Net, only_the_malformed_datagram_is_lost) {
   send({1});
   PlainSocket().send(std::string("DMC01\0PA1 garbage", 17), "127.0.0.1", port);
   PlainSocket().send("", "127.0.0.1", port);
@@ -115,7 +115,7 @@ TEST_P(Net, a_delay_does_not_build_up) {
   EXPECT_EQ(paced(1, 2), 0U);
 }
 
-TEST_P(Net, a_gap_is_counted_over) {
+TEST_P(Net, a_gap_is_skipped) {
   send({1});
   EXPECT_EQ(paced(), 1U);
   send({3, 4});
@@ -130,7 +130,7 @@ TEST_P(Net, a_new_count_begins_with_the_newest) {
   EXPECT_EQ(paced(), 5U);
 }
 
-TEST_P(Net, what_comes_late_or_twice_is_put_in_its_place) {
+TEST_P(Net, late_and_duplicate_records_are_ordered) {
   send({5});
   EXPECT_EQ(paced(), 5U);
   send({7, 6, 7, 8});
@@ -184,7 +184,7 @@ TEST_P(Net, misuse_gives_the_documents_codes) {
 
 #ifdef TRK_IDENTIFIED
 
-TEST_P(Net, camera_numbers_are_passed) {
+TEST_P(Net, camera_ids_are_passed) {
   trkCameraParams sent = params_in_c(1);
   sent.id = 7;
   ASSERT_EQ(trkNetWriteParams(writer, &sent), trkOK);
@@ -234,7 +234,7 @@ std::string binary_datagram(const char* layout) {
   return receiver.receive().value_or("");
 }
 
-TEST(NetLayout, binary_datagrams_are_what_todays_readers_take) {
+TEST(NetLayout, binary_datagrams_are_those_of_current_readers) {
   const std::string datagram = binary_datagram(nullptr);
   std::uint32_t words[2] = {};
   ASSERT_GE(datagram.size(), 208U);
@@ -247,7 +247,7 @@ TEST(NetLayout, binary_datagrams_are_what_todays_readers_take) {
   EXPECT_EQ(binary_datagram("identified_i386").size(), datagram.size() - 4);
 }
 
-TEST(NetLayout, an_environment_that_is_not_sound_is_a_failure) {
+TEST(NetLayout, an_invalid_environment_is_a_failure) {
   trkHandle none = nullptr;
   ::setenv("TRK_LAYOUT", "upside_down", 1);
   EXPECT_EQ(trkNetOpenWrite("127.0.0.1", 4000, 1, &none), trkFailed);

@@ -197,7 +197,7 @@ TEST(ParamsRing, the_oldest_and_the_newest) {
   EXPECT_EQ(ring.size(), 0u) << "given over";
 }
 
-TEST(ParamsRing, a_counter_that_stands_gives_what_comes) {
+TEST(ParamsRing, a_counter_that_stands_still_gives_every_record) {
   ParamsRing ring;
   int given = 0;
   for (int i = 0; i < 100; ++i) {

@@ -56,7 +56,7 @@ TEST(Struct, parameters_as_text) {
   EXPECT_EQ(back.counter, 1234U);
 }
 
-TEST(Struct, matrices_go_column_after_column) {
+TEST(Struct, matrices_are_column_major) {
   trkCameraParams p{};
   ASSERT_EQ(trkStringToParams("I7 0 1 0 0 0 1 0 0 0 1 10 20 30 7.5 0 0 0 0 0 0 9", &p), 1);
   EXPECT_EQ(p.t.m[3][0], 10);
@@ -78,7 +78,7 @@ TEST(Struct, constants_as_text) {
   EXPECT_EQ(back.fakeChipHeight, 4.9);
 }
 
-TEST(Struct, texts_that_are_not_sound_leave_the_record_as_it_was) {
+TEST(Struct, malformed_texts_do_not_change_the_record) {
   trkCameraParams p = euler_params();
   for (const char* text : {"", "11 1 2 3", "11 1.5 -2 1.75 30 -5 0 42 0.1 0 -0.001 0 4.5 0 1234 x",
                            "11 nan -2 1.75 30 -5 0 42 0.1 0 -0.001 0 4.5 0 1234"}) {
@@ -127,7 +127,7 @@ TEST(Struct, texts_have_the_camera_number) {
 }
 #endif
 
-TEST(Struct, what_is_not_finite_has_no_text) {
+TEST(Struct, values_that_are_not_finite_have_no_text) {
   trkCameraParams p = euler_params();
   p.t.e.pan = std::numeric_limits<double>::quiet_NaN();
   char text[trkStringSize];

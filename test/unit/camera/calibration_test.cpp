@@ -47,7 +47,7 @@ double measured_residual(const Lens& lens, const CameraConstants& constants, con
   return worst;
 }
 
-TEST(Calibrator, IsAsNearAsTheModelsCanBe) {
+TEST(Calibrator, IsAsExactAsTheModelsCanBe) {
   struct Row {
     double at_corner, share;
     DistortionModel model;
@@ -73,7 +73,7 @@ TEST(Calibrator, IsAsNearAsTheModelsCanBe) {
   }
 }
 
-TEST(Calibrator, PlumbBobAlwaysIsAsNearAsPlumbBobCanBe) {
+TEST(Calibrator, PlumbBobAlwaysIsAsExactAsPlumbBobCanBe) {
   // What lens_fit.md has of it.
   for (const auto& [at_corner, share, residual] : {std::tuple{0.925, 0.92, 0.035}, {1.257, 0.5, 0.724}}) {
     SCOPED_TRACE(at_corner);
@@ -126,7 +126,7 @@ TEST(Calibrator, FitsEveryLensThatDoesNotFold) {
   }
 }
 
-TEST(Calibrator, HasNothingToFitWithoutDistortion) {
+TEST(Calibrator, FitsNothingWithoutDistortion) {
   Calibrator calibrator;
   const auto calibration = calibrator.calibrate(Lens{8, {0.1, 0.2}}, hd);
   ASSERT_TRUE(calibration);
@@ -135,7 +135,7 @@ TEST(Calibrator, HasNothingToFitWithoutDistortion) {
   EXPECT_EQ(calibration->distortion.residual, 0);
 }
 
-TEST(Calibrator, TellsKInPixelsFromTheCentreOfTheFirst) {
+TEST(Calibrator, GivesKInPixelsFromTheCentreOfTheFirst) {
   Calibrator calibrator;
   // 4:3 chip in 720 x 576, the axis 1 mm right of the chip's centre and 0.5 mm above.
   const auto calibration = calibrator.calibrate(Lens{10, {-1, -0.5}}, {0, 720, 576, 8, 12, 4, 2, 7, 5.7, 0, 0});
@@ -193,7 +193,7 @@ TEST(Calibrator, RecoversAfterALensThatFolds) {
   EXPECT_EQ(after->distortion.d, before->distortion.d);
 }
 
-TEST(Calibrator, RefusesWhatIsNoLens) {
+TEST(Calibrator, RefusesInvalidLenses) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto reason = [](const Lens& lens, const CameraConstants& constants) {
     Calibrator calibrator;
@@ -274,7 +274,7 @@ TEST(FitLens, ReadsEveryLengthOfD) {
   EXPECT_LE(four->residual, 0.3);
 }
 
-TEST(FitLens, GivesItsResidualHonestly) {
+TEST(FitLens, ReportsItsTrueResidual) {
   const std::array<double, 9> k = {1600, 0, 959.5, 0, 1600 * (1080 / 5.39) / (1920 / 9.59), 539.5, 0, 0, 1};
   const Distortion distortion{DistortionModel::rational_polynomial, {-0.3, 0.1, 0, 0, -0.02, 0.05, -0.01, 0.003}, 0};
   const auto fitted = fit_lens(k, published(distortion), hd);
@@ -283,7 +283,7 @@ TEST(FitLens, GivesItsResidualHonestly) {
   EXPECT_NEAR(measured_residual(fitted->lens, hd, distortion), fitted->residual, 0.1 * fitted->residual);
 }
 
-TEST(FitLens, SaysHowMuchIsLost) {
+TEST(FitLens, ReportsHowMuchIsLost) {
   // Without radial terms p2 moves a point in the corner by 3 p2 x^2 + p2 y^2 across and 2 p2 xy down.
   const std::array<double, 9> k = {1000, 0, 499.5, 0, 1000, 499.5, 0, 0, 1};
   const CameraConstants square{0, 1000, 1000, 0, 0, 0, 0, 10, 10, 0, 0};
@@ -335,7 +335,7 @@ TEST(FitLens, OfAnUndistortion) {
   EXPECT_EQ(reason({}, Lens{}, hd), CameraReason::bad_field_of_view);
 }
 
-TEST(FitLens, RefusesWhatIsNoCameraInfo) {
+TEST(FitLens, RefusesInvalidCameraInfo) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::array<double, 9> good = {1600, 0, 959.5, 0, 1600, 539.5, 0, 0, 1};
   const auto reason = [](const std::array<double, 9>& k, const std::vector<double>& d, const CameraConstants& c) {

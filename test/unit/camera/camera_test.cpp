@@ -42,7 +42,7 @@ void expect_error(const Result<T>& result, CameraReason reason) {
   EXPECT_EQ(result.error(), reason) << describe(result.error());
 }
 
-TEST(Formats, EveryMeaningfulOneCarriesACameraThereAndBack) {
+TEST(Formats, EveryMeaningfulFormatRoundTripsACamera) {
   test::RandomCameras random;
   const auto masks = test::meaningful_masks();
   ASSERT_EQ(masks.size(), 768U);
@@ -68,7 +68,7 @@ TEST(Formats, EveryMeaningfulOneCarriesACameraThereAndBack) {
   }
 }
 
-TEST(Formats, ThatNobodyShouldMakeAreRefused) {
+TEST(Formats, ThatCannotBeWrittenAreRefused) {
   expect_error(encode(Camera{}, 0x400, &sound_constants), CameraReason::bad_format);
   expect_error(encode(Camera{}, 0x80000000, &sound_constants), CameraReason::bad_format);
   expect_error(encode(Camera{}, wire::field_of_view | wire::vertical | wire::diagonal, &sound_constants),
@@ -145,7 +145,7 @@ TEST(Angles, BeyondTheCanonicalRangeAreTheSameRotation) {
   }
 }
 
-TEST(Angles, AtGimbalLockGoIntoPan) {
+TEST(Angles, AtGimbalLockAreInPan) {
   const PanTiltRoll up = pan_tilt_roll(rotation_of({30, 90, 40}));
   EXPECT_NEAR(up.pan, 70, 1e-9);
   EXPECT_NEAR(up.tilt, 90, 1e-9);
@@ -156,7 +156,7 @@ TEST(Angles, AtGimbalLockGoIntoPan) {
   EXPECT_EQ(down.roll, 0);
 }
 
-TEST(Angles, NearGimbalLockStillAreTheRotation) {
+TEST(Angles, NearGimbalLockAreStillTheRotation) {
   for (double off = 1e-16; off < 1; off *= 7) {
     for (const double tilt : {90 - off, -90 + off, 90 + off}) {
       const Eigen::Matrix3d rotation = rotation_of({123, tilt, -77});
@@ -183,7 +183,7 @@ TEST(Pose, OfAnInexactMatrixIsTheNearestRotation) {
   }
 }
 
-TEST(Pose, ThatIsNoneIsRefused) {
+TEST(Pose, ThatIsInvalidIsRefused) {
   struct Wrong {
     std::size_t element;
     double value;
@@ -276,7 +276,7 @@ TEST(FieldOfView, MustBeAnAngleOrADistance) {
   }
 }
 
-TEST(Constants, AreAskedForOnlyWhereTheFormatNeedsThem) {
+TEST(Constants, AreNeededOnlyIfTheFormatNeedsThem) {
   CameraParams params = matrix_params();
   EXPECT_TRUE(decode(params, nullptr));
   for (const std::uint32_t format : {wire::field_of_view, wire::ignore_blank, wire::shift_in_pixels}) {
@@ -289,7 +289,7 @@ TEST(Constants, AreAskedForOnlyWhereTheFormatNeedsThem) {
   }
 }
 
-TEST(Constants, ThatLeaveNoPictureAreRefused) {
+TEST(Constants, ThatAreInvalidAreRefused) {
   const auto with = [](auto field, auto value) {
     CameraConstants constants = sound_constants;
     constants.*field = value;
@@ -333,7 +333,7 @@ TEST(Constants, AreSentWithTheFakeChipOfTheFormat) {
   EXPECT_EQ(constants_for(unusable, wire::keep_aspect), unusable);
 }
 
-TEST(FakeChip, OfTheSenderCountsWhereItIsPositive) {
+TEST(FakeChip, OfTheSenderIsUsedIfItIsPositive) {
   CameraParams params = matrix_params();
   params.format = wire::field_of_view | wire::ignore_blank;
   params.fov = 90;
@@ -349,7 +349,7 @@ TEST(FakeChip, OfTheSenderCountsWhereItIsPositive) {
   EXPECT_NEAR(decode_lens(params, &constants)->image_distance, 7.19 * 720 / 704 / 2, 1e-12);
 }
 
-TEST(Reasons, AllHaveTheirOwnWords) {
+TEST(Reasons, AllHaveDistinctTexts) {
   std::set<std::string> words;
   for (int i = 0; i <= static_cast<int>(CameraReason::bad_calibration); ++i) {
     EXPECT_TRUE(words.insert(describe(static_cast<CameraReason>(i))).second) << i;

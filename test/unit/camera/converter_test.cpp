@@ -72,7 +72,7 @@ void expect_kept_but(const Change& change) {
   EXPECT_TRUE(same_bits(out->focdist, params.focdist) && same_bits(out->aperture, params.aperture));
 }
 
-TEST(Converter, ConvertsOnlyWhatItsOptionsConcern) {
+TEST(Converter, ConvertsOnlyWhatItsOptionsAffect) {
   using namespace wire;
   const std::uint32_t fake_pixels = ignore_blank | shift_in_pixels;
   const Change changes[] = {
@@ -141,7 +141,7 @@ TEST(Converter, IsDecodingAndEncoding) {
   }
 }
 
-TEST(Converter, ConvertsWhereTheConstantsChangeTheMeaning) {
+TEST(Converter, ConvertsIfTheConstantsChangeTheMeaning) {
   const std::uint32_t format = wire::euler | wire::field_of_view | wire::ignore_blank | wire::shift_in_pixels;
   CameraConstants incoming = known;
   incoming.fake_chip_width = 20;
@@ -159,7 +159,7 @@ TEST(Converter, ConvertsWhereTheConstantsChangeTheMeaning) {
   EXPECT_LE((after->center_shift - before->center_shift).norm(), 1e-12);
 }
 
-TEST(Converter, KeepsWhatItNeedNotUnderstand) {
+TEST(Converter, KeepsWhatNeedsNoConversion) {
   // Without constants and with some; numbers that are no camera.
   const std::uint32_t format = wire::field_of_view | wire::ignore_blank | wire::shift_in_pixels;
   CameraParams params = awkward(format);
@@ -213,7 +213,7 @@ TEST(Converter, FailsPartByPart) {
   EXPECT_FALSE(converted.params);
 }
 
-TEST(Converter, LeavesRecordsAloneWithoutAFormat) {
+TEST(Converter, DoesNotChangeRecordsWithoutAFormat) {
   // A format that no record could be made in, a matrix that is no rotation.
   CameraParams params = awkward(0xFC00 | wire::field_of_view | wire::vertical | wire::diagonal);
   params.matrix[0] = 1.1;
@@ -257,7 +257,7 @@ TEST(Converter, TakesConstants) {
   EXPECT_EQ(converter.outgoing()->blank_top, 3);
 }
 
-TEST(Converter, KeepsTheConstantsWhereNewOnesAreUnsound) {
+TEST(Converter, KeepsTheConstantsIfNewOnesAreInvalid) {
   Converter converter(wire::field_of_view);
   CameraConstants unsound = known;
   unsound.image_width = 0;
@@ -334,7 +334,7 @@ void expect_same_params(const CameraParams& actual, const CameraParams& expected
   EXPECT_EQ(actual.aperture, expected.aperture);
 }
 
-TEST(Converter, ConvertsTheWorkedCasesThereAndBack) {
+TEST(Converter, RoundTripsTheWorkedCases) {
   constexpr double tolerance = 1e-9;
   const auto cases = test::worked_cases();
   const auto masks = test::meaningful_masks();

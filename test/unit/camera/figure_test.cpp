@@ -207,7 +207,7 @@ void expect_refused(const ViewingLens& lens, CameraReason reason) {
   EXPECT_EQ(border.error(), reason) << describe(border.error());
 }
 
-TEST(ImageBorder, RefusesWhatNoCameraHas) {
+TEST(ImageBorder, RefusesInvalidValues) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double infinite = std::numeric_limits<double>::infinity();
   expect_refused({}, CameraReason::bad_calibration);
@@ -241,7 +241,7 @@ TEST(ImageBorder, RefusesWhatNoCameraHas) {
   }
 }
 
-TEST(ImageBorder, RefusesImagesThatAreTooWideOrOfNoExtent) {
+TEST(ImageBorder, RefusesImagesThatAreTooWideOrEmpty) {
   expect_refused(full_hd(10, 1500), CameraReason::too_wide);
   expect_refused(full_hd(1e-300, 1e-300), CameraReason::too_wide);
   expect_refused(full_hd(std::numeric_limits<double>::denorm_min(), 1), CameraReason::too_wide);
@@ -303,7 +303,7 @@ TEST(ImageBorder, RefusesOnlyLensesThatOpenCvFoldsAsWell) {
   EXPECT_GT(refused, 20);
 }
 
-TEST(ImageBorder, IsNeverNotANumber) {
+TEST(ImageBorder, IsNeverNaN) {
   std::mt19937_64 engine(19980901);
   std::uniform_int_distribution<int> exponent(-320, 308);
   std::uniform_int_distribution<int> sign(0, 1);
@@ -384,7 +384,7 @@ TEST(Area, IsFilledWithoutOverlap) {
   }
 }
 
-TEST(ViewingLens, IsTheSameNumberByNumber) {
+TEST(ViewingLens, ComparesAllNumbers) {
   const auto lens = full_hd();
   EXPECT_EQ(lens, full_hd());
   auto other = lens;

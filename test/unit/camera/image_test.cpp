@@ -20,7 +20,7 @@ TEST(Projection, IsThatOfThePinhole) {
   EXPECT_EQ(*chip, Eigen::Vector2d(4.5, -9.75));
 }
 
-TEST(Projection, ShowsNothingThatIsNotInFront) {
+TEST(Projection, ShowsOnlyPointsInFront) {
   for (const double depth : {0.0, -1.0, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
     const auto chip = project(Lens{20}, Eigen::Vector3d(1, depth, 1));
     ASSERT_FALSE(chip);

@@ -55,7 +55,7 @@ TEST(Interpolation, AnImageDistanceAndTheOtherNumbersOfALensAreLinear) {
   EXPECT_EQ(c.format, a.format);
 }
 
-TEST(Interpolation, TheShorterWayRoundAcrossTheBack) {
+TEST(Interpolation, TheShorterWayAcrossTheBack) {
   auto a = record(0, 10), b = record(0, 10);
   a.euler.pan = -179;
   b.euler.pan = 179;
@@ -77,7 +77,7 @@ TEST(Interpolation, OverTheTopTheAxisGoesStraight) {
   }
 }
 
-TEST(Interpolation, ATurnGoesOnBeyondTheSamples) {
+TEST(Interpolation, ATurnIsExtrapolatedBeyondTheSamples) {
   auto a = record(0, 10), b = record(0, 10);
   a.euler.pan = 10;
   b.euler.pan = 14;
@@ -101,7 +101,7 @@ TEST(Interpolation, MatricesOfAnyAxesMoveTheCameraAndNotTheStudio) {
   EXPECT_NEAR(pan_tilt_roll(middle.linear()).pan, 45, 1e-9);
 }
 
-TEST(Interpolation, WhatIsNoCameraIsRefused) {
+TEST(Interpolation, InvalidCamerasAreRefused) {
   EXPECT_EQ(decode_relative(record(wire::field_of_view, 180)).error(), CameraReason::bad_field_of_view);
   EXPECT_EQ(decode_relative(record(0, -1)).error(), CameraReason::bad_field_of_view);
   EXPECT_EQ(decode_relative(record(0x8000, 10)).error(), CameraReason::bad_format);

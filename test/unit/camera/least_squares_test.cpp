@@ -41,9 +41,7 @@ TEST(LeastSquares, UsesOneOfDependentColumns) {
   EXPECT_NEAR(x[2], 1, 1e-14);
 }
 
-TEST(LeastSquares, IsZeroWhereThereAreNoTerms) {
-  EXPECT_TRUE(least_squares(Terms::Zero(3, 2), Values::Ones(3)).isZero(0));
-}
+TEST(LeastSquares, IsZeroWithoutTerms) { EXPECT_TRUE(least_squares(Terms::Zero(3, 2), Values::Ones(3)).isZero(0)); }
 
 TEST(LeastSquares, EndsWithoutNumbers) {
   Terms terms = Terms::Ones(3, 2);

@@ -44,7 +44,7 @@ TEST(OpenCv, PutsThePointsOfTheWorkedCasesWhereTheCameraSeesThem) {
   RecordProperty("worst_pixels", std::to_string(worst));
 }
 
-TEST(OpenCv, FindsTheWholeImageWhereTheResidualSays) {
+TEST(OpenCv, MatchesTheFullImageWithinTheResidual) {
   // A wide lens with all of the trimmings: pixels that are not square, uneven blanks, an axis off the centre.
   const wire::CameraConstants constants{0, 720, 576, 4, 12, 6, 0, 9.59, 7.19, 0, 0};
   const Lens lens{5.2, {0.31, -0.22}, 2e-3, 3e-5, 0, 0};

@@ -60,7 +60,7 @@ TEST_P(Takes, AreTheSameMotion) {
   }
 }
 
-TEST_P(Takes, StayAsTheyAreInTheirOwnFormat) {
+TEST_P(Takes, AreUnchangedInTheirOwnFormat) {
   const Take take = read_take(GetParam());
   Converter converter(take.params.front().format);
   ASSERT_EQ(converter.use(take.constants), ConstantsChange::changed);

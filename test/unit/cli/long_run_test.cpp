@@ -11,7 +11,7 @@
 namespace trk_bridge::cli {
 namespace {
 
-TEST(LongRunTest, AShortRunSaysNothing) {
+TEST(LongRunTest, AShortRunPrintsNothing) {
   for (const bool is_terminal : {false, true}) {
     std::ostringstream err;
     {
@@ -23,7 +23,7 @@ TEST(LongRunTest, AShortRunSaysNothing) {
   }
 }
 
-TEST(LongRunTest, OnATerminalItsLineIsRewrittenAndTakenAway) {
+TEST(LongRunTest, OnATerminalItsLineIsRewrittenAndRemoved) {
   std::ostringstream err;
   {
     LongRun run(err, /*is_terminal=*/true);

@@ -37,7 +37,7 @@ Eigen::Vector2d median_motion(const std::vector<MovedPoint>& points) {
   return {middle(right), middle(down)};
 }
 
-TEST(PictureMotion, IsFoundHoweverFarItIs) {
+TEST(PictureMotion, IsFoundForAnyDistance) {
   for (const cv::Size size : {cv::Size(320, 180), cv::Size(1280, 720)}) {
     for (const cv::Point2d by : {cv::Point2d(0, 0), {0.37, -0.6}, {-7.3, 2}, {41.5, -12.25}}) {
       PictureMotion motion;
@@ -51,7 +51,7 @@ TEST(PictureMotion, IsFoundHoweverFarItIs) {
   }
 }
 
-TEST(PictureMotion, IsNoneWhereThereIsNothingToSee) {
+TEST(PictureMotion, IsNoneWithoutDetail) {
   PictureMotion motion;
   const cv::Mat grey(180, 320, CV_8UC1, cv::Scalar(90));
   motion.next(grey);

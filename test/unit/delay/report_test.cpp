@@ -31,7 +31,7 @@ Measurement measured() {
   return m;
 }
 
-TEST(Report, SaysWhichOneIsLaterAndWhereToEnterIt) {
+TEST(Report, ReportsWhichIsLaterAndTheParameterToSet) {
   auto m = measured();
   EXPECT_EQ(summary(m, field), "the video is 43.2 ms later than tracking (2.16 fields)");
   EXPECT_EQ(setting(m), "for ros_to_trk: delay:=0.0432");
@@ -46,7 +46,7 @@ TEST(Report, SaysWhichOneIsLaterAndWhereToEnterIt) {
                                             Pair("frames followed (%)", "100")));
 }
 
-TEST(Report, NamesOnlyWhatIsSurelyWrong) {
+TEST(Report, ReportsOnlySignificantFaults) {
   auto m = measured();
   EXPECT_THAT(faults(m), IsEmpty());
   m.axes[0].scale = -1;

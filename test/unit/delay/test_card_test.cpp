@@ -93,7 +93,7 @@ class CleanVideo : public ::testing::Test {
   static constexpr double delay = 0.0413;
 };
 
-TEST_F(CleanVideo, GivesDelayAndScalesMuchCloser) {
+TEST_F(CleanVideo, GivesDelayAndScalesMoreExactly) {
   const auto found = against(quick_pans);
   ASSERT_FALSE(found.cannot_tell);
   EXPECT_NEAR(found.delay, delay, 2e-4);
@@ -104,7 +104,7 @@ TEST_F(CleanVideo, GivesDelayAndScalesMuchCloser) {
   EXPECT_THAT(faults(found), IsEmpty());
 }
 
-TEST_F(CleanVideo, APanThatTurnsTheWrongWayIsNamedAndTheDelayFound) {
+TEST_F(CleanVideo, APanWithAWrongSignIsReportedAndTheDelayFound) {
   const auto found = against([](double t) {
     auto params = quick_pans(t);
     params.euler.pan *= -1;
@@ -131,7 +131,7 @@ TEST_F(CleanVideo, AFocalLengthThatIsThreePercentTooLongIsNamed) {
               ElementsAre(::testing::MatchesRegex("tracking's focal length is (2.9|3.0|3.1) % too long")));
 }
 
-TEST_F(CleanVideo, WhatCannotBeToldIsSaid) {
+TEST_F(CleanVideo, ReportsWhyItCannotMeasure) {
   const auto why = [](const Motion& motion) { return against(motion).cannot_tell; };
   EXPECT_EQ(why([](double) { return quick_pans(0); }), CannotTell::tracking_stood);
   EXPECT_EQ(why([](double t) { return quick_pans(t + 30); }), CannotTell::tracking_stood);
@@ -182,7 +182,7 @@ TEST(EvenPan, TellsNothing) {
   EXPECT_EQ(meter.measure().cannot_tell, CannotTell::too_even);
 }
 
-TEST(Clocks, ThatDifferAreNamed) {
+TEST(Clocks, ThatDifferAreReported) {
   Meter meter;
   (void)meter.use(test::video_constants());
   test::CardVideo video;

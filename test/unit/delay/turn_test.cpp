@@ -67,7 +67,7 @@ TEST(TurnOf, IsWhatTheCameraTurned) {
   }
 }
 
-TEST(TurnOf, ZoomIsNoTurn) {
+TEST(TurnOf, ZoomIsNotATurn) {
   const Eigen::Matrix3d rotation = camera::rotation_of({0, 0, 0});
   auto longer = lens();
   longer.image_distance *= 1.01;
@@ -76,7 +76,7 @@ TEST(TurnOf, ZoomIsNoTurn) {
   expect_near(*turn, Turn::Zero(), 2e-4);
 }
 
-TEST(TurnOf, FollowsTheMostPoints) {
+TEST(TurnOf, FollowsTheMajorityOfPoints) {
   const Eigen::Matrix3d before = camera::rotation_of({0, 0, 0}), now = camera::rotation_of({1, 0.5, 0});
   auto points = seen(before, lens(), now, lens());
   std::mt19937 random(1);
@@ -89,7 +89,7 @@ TEST(TurnOf, FollowsTheMostPoints) {
   expect_near(*turn, turn_between(before, now), 3e-4);
 }
 
-TEST(TurnOf, IsNoneWhereNothingAgrees) {
+TEST(TurnOf, IsNoneIfPointsDoNotAgree) {
   const Eigen::Matrix3d rotation = camera::rotation_of({0, 0, 0});
   auto points = seen(rotation, lens(), rotation, lens());
   points.resize(7);

@@ -81,7 +81,7 @@ TEST(CraneMotion, TheCameraOfTheUrdfHasTheTargetInTheMiddleAndInFocus) {
   }
 }
 
-TEST(CraneMotion, TheHeadStaysLevelButForItsRoll) {
+TEST(CraneMotion, TheHeadStaysLevelExceptForItsRoll) {
   const Crane crane;
   double most = 0;
   for (int i = 0; i < fields; ++i) {

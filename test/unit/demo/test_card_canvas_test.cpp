@@ -69,7 +69,7 @@ TEST_F(TestCardCanvas, LinesEndWhereTheyShould) {
   EXPECT_EQ(picture_.at<std::uint8_t>(103, 150), ground);
 }
 
-TEST_F(TestCardCanvas, WhatIsOutsideIsLeftAway) {
+TEST_F(TestCardCanvas, PartsOutsideAreClipped) {
   for (const double far : {330.0, 1e5, 1e9, 1e300}) {
     canvas_.line({{-far, -far}, {-far, far}}, 1.5, bright);
     canvas_.line({{far, far}, {far, far}}, 1.5, bright);
@@ -81,7 +81,7 @@ TEST_F(TestCardCanvas, WhatIsOutsideIsLeftAway) {
   EXPECT_EQ(brightest(), ground);
 }
 
-TEST_F(TestCardCanvas, OverAnEdgeWhatIsInsideIsDrawn) {
+TEST_F(TestCardCanvas, AcrossAnEdgeThePartInsideIsDrawn) {
   canvas_.disc({0, 0}, 7, bright);
   canvas_.disc({319, 239}, 7, bright);
   canvas_.line({{-50, 120}, {400, 120}}, 1.5, bright);
@@ -91,7 +91,7 @@ TEST_F(TestCardCanvas, OverAnEdgeWhatIsInsideIsDrawn) {
   EXPECT_EQ(picture_.at<std::uint8_t>(120, 319), bright);
 }
 
-TEST_F(TestCardCanvas, LabelsAvoidWhatIsThere) {
+TEST_F(TestCardCanvas, LabelsAvoidDrawnParts) {
   canvas_.line({{0, 125}, {320, 125}}, 1.5, bright);
   const cv::Mat before = picture_.clone();
   canvas_.label("4 8 2", {160, 110}, 7, bright);

@@ -51,7 +51,7 @@ TEST(TestCardParameters, AreRead) {
               ::testing::ElementsAre(-1.5, 7, 3, 2, 2.5, 0.5));
 }
 
-TEST(TestCardParameters, EveryFaultIsTold) {
+TEST(TestCardParameters, EveryFaultIsReported) {
   XmlRpc::XmlRpcValue tree;
   tree["rate"] = 0;
   tree["spacing"] = 0.1;
@@ -63,7 +63,7 @@ TEST(TestCardParameters, EveryFaultIsTold) {
                                    AllOf(HasSubstr("~hight"), HasSubstr("height")), HasSubstr("~y")));
 }
 
-TEST(TestCardParameters, ThereIsAlwaysSomethingToTellLinesApartBy) {
+TEST(TestCardParameters, TheSpacingIsAlwaysLargeEnough) {
   for (const double spacing : {0.0, -1.0, 0.001}) {
     XmlRpc::XmlRpcValue tree;
     tree["spacing"] = spacing;
@@ -71,14 +71,14 @@ TEST(TestCardParameters, ThereIsAlwaysSomethingToTellLinesApartBy) {
   }
 }
 
-TEST(TestCardParameters, SizesAreNotJudgedByASpacingThatIsWrong) {
+TEST(TestCardParameters, SizesAreNotCheckedAgainstAWrongSpacing) {
   XmlRpc::XmlRpcValue tree;
   tree["spacing"] = "narrow";
   tree["width"] = 500;
   EXPECT_THAT(refusal(tree), AllOf(HasSubstr("~spacing = 'narrow': must be a number"), Not(HasSubstr("~width"))));
 }
 
-TEST(TestCardParameters, ARandomDelayIsNotGiven) {
+TEST(TestCardParameters, ARandomDelayExcludesAGivenOne) {
   XmlRpc::XmlRpcValue tree;
   tree["random_video_delay"] = true;
   EXPECT_TRUE(read_test_card_parameters(tree, "crane").random_video_delay);
@@ -86,7 +86,7 @@ TEST(TestCardParameters, ARandomDelayIsNotGiven) {
   EXPECT_THAT(refusal(tree), HasSubstr("~video_delay: must not be given with random_video_delay"));
 }
 
-TEST(TestCardParameters, FramesMustBeFrames) {
+TEST(TestCardParameters, FramesMustBeValid) {
   XmlRpc::XmlRpcValue tree;
   tree["studio_frame"] = "/studio";
   tree["optical_frame"] = "";

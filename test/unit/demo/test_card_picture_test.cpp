@@ -209,7 +209,7 @@ TEST_P(TestCardThroughLens, RectifiedLinesAreStraight) {
   RecordProperty("lines", compared);
 }
 
-TEST_P(TestCardThroughLens, ChordsStayWithTheCurve) {
+TEST_P(TestCardThroughLens, ChordsFollowTheCurve) {
   Polyline bent;
   double worst = 0;
   for (const Line& line : lines()) {

@@ -42,7 +42,7 @@ TEST(TestCardView, SeesTheMiddleOfTheCardInTheMiddle) {
   EXPECT_LT((*aside - Eigen::Vector2d(959.5 + 480, 539.5 + 160)).norm(), 1e-9);
 }
 
-TEST(TestCardView, DoesNotSeeWhatIsBehindOrWhatIsNoPlace) {
+TEST(TestCardView, DoesNotSeePointsBehindOrInvalidOnes) {
   const auto view = View::of(level_camera(), hd());
   ASSERT_TRUE(view);
   Polyline seen;
@@ -57,7 +57,7 @@ TEST(TestCardView, DoesNotSeeWhatIsBehindOrWhatIsNoPlace) {
   EXPECT_THAT(seen, ::testing::IsEmpty());
 }
 
-TEST(TestCardView, ALineFromBehindIsSeenAsFarAsThePictureReaches) {
+TEST(TestCardView, ALineFromBehindIsClippedToThePicture) {
   const auto view = View::of(level_camera(), hd());
   ASSERT_TRUE(view);
   Polyline seen;
@@ -149,7 +149,7 @@ TEST(TestCardFigure, HasWholeCellsAndTheCoordinatesOfItsLabels) {
   EXPECT_EQ(labelled->place, Eigen::Vector3d(1, 10, 2));
 }
 
-TEST(TestCardFigure, AWallOrAFloorMayBeLeftAway) {
+TEST(TestCardFigure, WallOrFloorMayBeOmitted) {
   Place place;
   place.height = 0;
   EXPECT_THAT(figure_at(place).points, ::testing::Each(::testing::Field(

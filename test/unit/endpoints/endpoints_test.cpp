@@ -16,7 +16,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(Endpoints, WhatWasProbablyMeantIsNamed) {
+TEST(Endpoints, SuggestsWhatWasProbablyMeant) {
   EXPECT_THAT(read_error("/takes/crane.trk"), HasSubstr("did you mean file:/takes/crane.trk?"));
   EXPECT_THAT(read_error("crane.trk?loop=1"), HasSubstr("did you mean file:crane.trk?loop=1?"));
   EXPECT_THAT(write_error("takes/a:b.trk"), HasSubstr("did you mean file:takes/a:b.trk?"));
@@ -169,7 +169,7 @@ TEST(Endpoints, AWrongDelayNamesTheRange) {
   EXPECT_THAT(read_error("udp://:7000?delay=0.04"), HasSubstr("delay is for writing"));
 }
 
-TEST(Endpoints, AWrongFormNamesKeyValueAndWhatIsAllowed) {
+TEST(Endpoints, AWrongFormNamesKeyValueAndAllowed) {
   EXPECT_THAT(write_error("shm:7?format=eulr"), AllOf(HasSubstr("format = \"eulr\""), HasSubstr("euler")));
   EXPECT_EQ(parse_sink("shm:7?format=vertical,diagonal")->form.format, std::uint32_t{wire::diagonal})
       << "of opposite words the last one counts";
@@ -180,7 +180,7 @@ TEST(Endpoints, AWrongFormNamesKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(write_error("shm:7?preset=unreal_trackmen&id=3"), HasSubstr("sends no id"));
 }
 
-TEST(Endpoints, WhatAFormDoesNotSayComesFromTheDefaults) {
+TEST(Endpoints, OptionsThatAFormDoesNotSetHaveDefaults) {
   transport::SinkForm defaults;
   defaults.format = wire::euler | wire::field_of_view;
   defaults.sends_id = false;
@@ -200,7 +200,7 @@ TEST(Endpoints, WhatAFormDoesNotSayComesFromTheDefaults) {
   EXPECT_EQ(transport::with_defaults(parse_sink("shm:7?delay=0")->form, defaults).delay, transport::Delay{});
 }
 
-TEST(Endpoints, OnlyATakeWithoutAPaceCanWait) {
+TEST(Endpoints, OnlyATakeReadAtFullSpeedCanWait) {
   EXPECT_TRUE(parse_source("file:a?speed=0&loop=1")->can_wait);
   EXPECT_TRUE(parse_source("udp://:7000")->over_network);
   EXPECT_FALSE(parse_source("shm:7")->over_network || parse_source("file:a")->over_network);
@@ -209,7 +209,7 @@ TEST(Endpoints, OnlyATakeWithoutAPaceCanWait) {
   }
 }
 
-TEST(Endpoints, EqualPlacesAreThoseThatOnlyOneCanRead) {
+TEST(Endpoints, EqualPlacesAreThoseThatOnlyOneSourceCanRead) {
   EXPECT_EQ(parse_source("udp://:7000?allow=192.0.2.1")->place, parse_source("udp://:7000")->place);
   EXPECT_NE(parse_source("udp://:7001")->place, parse_source("udp://:7000")->place);
   EXPECT_EQ(parse_source("shm:7")->url, "shm:7");

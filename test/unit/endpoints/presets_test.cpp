@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-TEST(Presets, AreThoseOfTheFieldWithTheirMasks) {
+TEST(Presets, AreTheKnownReceiversWithTheirMasks) {
   const std::map<std::string, std::uint32_t> expected{
       {"pixotope", 0x001},       {"disguise", 0x001},    {"hippotizer", 0x001}, {"unreal_trackmen", 0x001},
       {"aximmetry", 0x09C},      {"brainstorm", 0x231},  {"deltatre", 0x031},   {"marketgraph", 0x09E},
@@ -30,7 +30,7 @@ TEST(Presets, AreThoseOfTheFieldWithTheirMasks) {
   EXPECT_EQ(presets().size(), expected.size());
 }
 
-TEST(Presets, OnlyUnrealGetsNoId) {
+TEST(Presets, OnlyUnrealIsSentNoId) {
   for (const auto& preset : presets()) EXPECT_EQ(preset.sends_id, preset.name != "unreal_trackmen") << preset.name;
 }
 
@@ -56,7 +56,7 @@ TEST(Presets, AreThoseOfTheFileThatIsInstalled) {
   }
 }
 
-TEST(Presets, OfASchemeOfItsOwnSetItsOptions) {
+TEST(Presets, OfAnotherSchemeSetItsOptions) {
   for (const auto& preset : presets()) {
     EXPECT_EQ(preset.scheme, preset.name.rfind("freed", 0) == 0 ? "freed" : "") << preset.name;
     if (preset.scheme.empty()) continue;
@@ -92,7 +92,7 @@ std::string error_of(const std::string& yaml) {
   return read ? "no error" : read.error();
 }
 
-TEST(PresetsFromYaml, ReadsWhatIsSound) {
+TEST(PresetsFromYaml, ReadsValidEntries) {
   const auto read =
       presets_from_yaml("a_1:\n  quirks: >-\n    one\n    two\n  sends_id: false\n  format: Euler VERTICAL\n", "");
   ASSERT_TRUE(read) << read.error();
@@ -138,7 +138,7 @@ TEST(PresetsFromYaml, SchemeAndOptions) {
   EXPECT_THAT(error_of(one + "  scheme: freed\n  options: sony\n"), StartsWith("p.yaml:6: preset a: options: option"));
 }
 
-TEST(PresetsFromYaml, WhatIsNoMapIsRefused) {
+TEST(PresetsFromYaml, EntriesThatAreNotMapsAreRefused) {
   EXPECT_THAT(error_of("- a\n- b\n"), StartsWith("p.yaml:1: must be a map of presets"));
   EXPECT_THAT(error_of("just text"), StartsWith("p.yaml:1: must be a map of presets"));
   EXPECT_THAT(error_of(""), HasSubstr("must be a map of presets"));

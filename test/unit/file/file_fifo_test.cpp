@@ -52,7 +52,7 @@ class PlayFifo : public PlayFile {
   Reception r;
 };
 
-TEST_F(PlayFifo, LinesArePlayedAsTheyCome) {
+TEST_F(PlayFifo, LinesArePlayedWhenTheyArrive) {
   const auto source = open_source(settings, 50.0);
   EXPECT_EQ(source->receive(r, 0ns), Event::idle);
   EXPECT_THAT(source->statistics().waiting_for, HasSubstr("nothing written yet"));
@@ -103,7 +103,7 @@ TEST_F(PlayFifo, AReaderThatWaitsForALineIsStopped) {
   stopper.join();
 }
 
-TEST_F(PlayFifo, WhatIsWrongIsAnErrorThatNamesTheLine) {
+TEST_F(PlayFifo, AFaultIsAnErrorThatNamesTheLine) {
   const auto error_of = [this](const std::string& text) {
     const auto source = open_source(settings, 50.0);
     static_cast<void>(source->receive(r, 0ns));

@@ -81,7 +81,7 @@ TEST_F(FileSinkTest, TheTimeCodeIsTheTimeOfDayOfTheFirstField) {
   EXPECT_EQ(code_in("c.trk"), "01:02:03:04:1");
 }
 
-TEST_F(FileSinkTest, WithoutATimeItIsThatOfNow) {
+TEST_F(FileSinkTest, WithoutATimeItIsTheCurrentTime) {
   // In a minute that does not end meanwhile.
   const auto minutes = [] { return std::time(nullptr) / 60; };
   std::time_t before = 0;
@@ -97,7 +97,7 @@ TEST_F(FileSinkTest, WithoutATimeItIsThatOfNow) {
   EXPECT_THAT(code, testing::StartsWith(expected));
 }
 
-TEST_F(FileSinkTest, OneWithoutFieldsHasItsConstants) {
+TEST_F(FileSinkTest, ATakeWithoutFieldsHasItsConstants) {
   const auto sink = open_sink(url("a.trk"));
   ASSERT_TRUE(sink->write(constants(1920)));
   ASSERT_TRUE(sink->close());
@@ -118,7 +118,7 @@ TEST_F(FileSinkTest, TheNameIsThatOfTheTimeOfTheFirstField) {
   EXPECT_EQ(code_in("crane-20261122-102030.trk"), "10:20:30:12:2");
 }
 
-TEST_F(FileSinkTest, OfOneNamedByTimeItIsKnownAtOnceWhetherThereIsAPlace) {
+TEST_F(FileSinkTest, AMissingFolderIsReportedAtOnceForNamesWithTimes) {
   EXPECT_THAT(opening_error("absent/%Y.trk"),
               AllOf(HasSubstr("absent/%Y.trk"), HasSubstr("No such file or directory")));
   EXPECT_EQ(opening_error("%Y.trk"), "no error");
@@ -160,14 +160,14 @@ TEST_F(FileSinkTest, TwoWritersAtTheSameTimeNeverGetOneNumber) {
   for (const auto& name : all) EXPECT_EQ(read_take(directory / name).params.size(), 2u) << name;
 }
 
-TEST_F(FileSinkTest, ThereIsAnEndOfNumbers) {
+TEST_F(FileSinkTest, NumbersAreLimited) {
   write_text(directory / "crane-9998.trk", "");
   record("crane.trk?number=1");
   EXPECT_TRUE(exists(directory / "crane-9999.trk"));
   EXPECT_THAT(opening_error("crane.trk?number=1"), HasSubstr("all numbers from 001 to 9999 are in use"));
 }
 
-TEST_F(FileSinkTest, WhatAnInterruptedRecordingLeftIsPublishedAndSaid) {
+TEST_F(FileSinkTest, AnInterruptedRecordingIsRecoveredAndReported) {
   leave_part("crane.trk");
   const auto sink = open_sink(url("crane.trk"));
   EXPECT_THAT(sink->notice(), AllOf(HasSubstr("recovered"), HasSubstr("crane.recovered.trk")));
@@ -175,7 +175,7 @@ TEST_F(FileSinkTest, WhatAnInterruptedRecordingLeftIsPublishedAndSaid) {
   EXPECT_THAT(read_text(directory / "crane.recovered.trk"), testing::EndsWith("\n1 2 3 4 5 6 7\n"));
 }
 
-TEST_F(FileSinkTest, AlsoOfNamesThatTheTimeHasPassed) {
+TEST_F(FileSinkTest, InterruptedRecordingsWithOlderNamesAreRecovered) {
   leave_part("crane-20201122-102030.trk");
   leave_part("other-20201122-102030.trk");
   leave_part("crane-2020112-102030.trk");
@@ -203,7 +203,7 @@ TEST_F(FileSinkTest, WhyANameCannotBeOpened) {
   EXPECT_THAT(opening_error("mine.trk"), HasSubstr("another writer is writing it"));
 }
 
-TEST_F(FileSinkTest, OneThatCannotBeOpenedIsOpenedByAWriteWhenItCan) {
+TEST_F(FileSinkTest, AFileThatCannotBeOpenedIsOpenedByALaterWrite) {
   write_text(directory / "there.trk", "precious");
   const auto sink = unopened("there.trk");
   ASSERT_TRUE(sink->write(constants()));
@@ -218,7 +218,7 @@ TEST_F(FileSinkTest, OneThatCannotBeOpenedIsOpenedByAWriteWhenItCan) {
   EXPECT_EQ(base::to_string(take.time_code), "10:20:31:12:2") << "of the first field in it";
 }
 
-TEST_F(FileSinkTest, OneThatWasNeverOpenedEndsWithTheReason) {
+TEST_F(FileSinkTest, AFileThatWasNeverOpenedEndsWithTheReason) {
   write_text(directory / "there.trk", "precious");
   const auto sink = unopened("there.trk");
   ASSERT_TRUE(sink->write(constants()));

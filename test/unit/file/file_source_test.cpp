@@ -140,7 +140,7 @@ TEST_F(PlayFile, WithoutADateItIsToday) {
   EXPECT_THAT(r.sample.arrival, testing::AllOf(testing::Ge(before * day + of_day), testing::Le(after * day + of_day)));
 }
 
-TEST_F(PlayFile, TheRateOfTheSettingsGoesBeforeTheCallers) {
+TEST_F(PlayFile, TheRateOfTheSettingsOverridesTheCallers) {
   auto settings = take_of(2);
   settings.speed = 0;
   settings.date = 0;
@@ -192,7 +192,7 @@ TEST_F(PlayFile, NoFieldIsEverEarlyAndTheScheduleDoesNotDrift) {
   EXPECT_EQ(counter(r), 21u);
 }
 
-TEST_F(PlayFile, BeforeItsTimeAFieldIsNotThere) {
+TEST_F(PlayFile, BeforeItsTimeAFieldIsNotReturned) {
   auto settings = take_of(2);
   settings.speed = 0.001;  // 20 s a field
   const auto source = open_source(settings, 50.0);
@@ -228,7 +228,7 @@ TEST_F(PlayFile, UnknownFormatBitsAreCounted) {
   EXPECT_EQ(source->statistics().unknown_format_bits, 1u);
 }
 
-TEST_F(PlayFile, ALineThatIsCutIsReportedOnceAndTheRestIsPlayed) {
+TEST_F(PlayFile, ATruncatedLineIsReportedOnceAndTheRestIsPlayed) {
   auto settings = take_of(2);
   test::write_text(path, test::read_text(path) + "1 1 2 3 4");
   settings.speed = 0;
@@ -244,7 +244,7 @@ TEST_F(PlayFile, ALineThatIsCutIsReportedOnceAndTheRestIsPlayed) {
   EXPECT_EQ(source->statistics().state, SourceState::receiving);
 }
 
-TEST_F(PlayFile, LenientLeavesOutALineAloneAndTheOthersKeepTheirTimes) {
+TEST_F(PlayFile, LenientSkipsOneLineAndTheOthersKeepTheirTimes) {
   auto settings = take_of(1);
   test::write_text(path, test::read_text(path) + "oops\n1 1 2 3 4 5 6 50 0 0 0 0 5 8 3\n");
   settings.speed = 0;
@@ -269,7 +269,7 @@ TEST_F(PlayFile, LenientLeavesOutALineAloneAndTheOthersKeepTheirTimes) {
   EXPECT_EQ(source->statistics().malformed, 1U);
 }
 
-TEST_F(PlayFile, ALineThatIsNotSoundEndsItThereAndIsNamed) {
+TEST_F(PlayFile, AMalformedLineEndsItThereAndIsNamed) {
   auto settings = take_of(5000);
   test::write_text(path, test::read_text(path) + "oops\n1 1 2 3 4 5 6 50 0 0 0 0 5 8 5001\n");
   settings.speed = 0;
@@ -286,7 +286,7 @@ TEST_F(PlayFile, ALineThatIsNotSoundEndsItThereAndIsNamed) {
   EXPECT_THAT(source->statistics().error, testing::StartsWith(path + ":5004: "));
 }
 
-TEST_F(PlayFile, ItBeginsBeforeTheTakeIsRead) {
+TEST_F(PlayFile, PlaybackBeginsBeforeTheTakeIsRead) {
   auto settings = take_of(50'000);
   settings.speed = 0;
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
@@ -317,7 +317,7 @@ TEST_F(PlayFile, ALoopOverATakeThatWasEmptiedEnds) {
   }
 }
 
-TEST_F(PlayFile, WhatCannotBePlayedIsRefusedAtOpening) {
+TEST_F(PlayFile, InvalidTakesAreRefusedAtOpening) {
   const auto error_of = [](const SourceSettings& settings, double rate = 50.0) {
     return test::error_of<TransportError>([&] { static_cast<void>(open_source(settings, rate)); });
   };
@@ -339,7 +339,7 @@ TEST_F(PlayFile, WhatCannotBePlayedIsRefusedAtOpening) {
   EXPECT_THAT(error_of(settings), HasSubstr("No such file"));
 }
 
-TEST_F(PlayFile, WhatTheSinkWroteComesBack) {
+TEST_F(PlayFile, ReadsWhatTheSinkWrote) {
   SinkSettings sink_settings;
   sink_settings.path = *RecordingName::parse(path);
   sink_settings.time_code = {1, 2, 3, 4, 2};

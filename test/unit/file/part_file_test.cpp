@@ -54,14 +54,14 @@ TEST_F(PartFileTest, HasItsFinalNameOnlyWhenPublished) {
   EXPECT_FALSE(file.publish()) << "there is nothing more to publish";
 }
 
-TEST_F(PartFileTest, IsCutToTheSizeThatIsWhole) {
+TEST_F(PartFileTest, IsTruncatedToItsCompleteSize) {
   auto file = opened(path);
   fill(file, "whole and half");
   ASSERT_TRUE(file.publish(5));
   EXPECT_EQ(read_text(path), "whole");
 }
 
-TEST_F(PartFileTest, NothingStaysOfWhatIsDiscarded) {
+TEST_F(PartFileTest, ADiscardedFileIsRemoved) {
   auto file = opened(path);
   fill(file, "half");
   file.discard();
@@ -70,7 +70,7 @@ TEST_F(PartFileTest, NothingStaysOfWhatIsDiscarded) {
   file.discard();
 }
 
-TEST_F(PartFileTest, WhatWasNeitherPublishedNorDiscardedStaysAsThePart) {
+TEST_F(PartFileTest, AFileThatIsNeitherPublishedNorDiscardedStaysAsPart) {
   {
     const auto file = opened(path);
     fill(file, "half");
@@ -82,7 +82,7 @@ TEST_F(PartFileTest, WhatWasNeitherPublishedNorDiscardedStaysAsThePart) {
   EXPECT_EQ(read_text(part), "");
 }
 
-TEST_F(PartFileTest, OverwritingHasToBeAskedFor) {
+TEST_F(PartFileTest, OverwritingMustBeRequested) {
   write_text(path, "precious");
   EXPECT_EQ(refusal(), SinkReason::exists);
   auto file = opened(path, {true});
@@ -103,7 +103,7 @@ TEST_F(PartFileTest, AFileThatAppearedMeanwhileIsNotReplaced) {
   EXPECT_EQ(read_text(part), "late");
 }
 
-TEST_F(PartFileTest, ANameOfItsOwnIsOnlyOneThatNobodyHas) {
+TEST_F(PartFileTest, AUniqueNameMustNotExist) {
   PartFile::Options options;
   options.part = Part::refused;
   {
@@ -113,7 +113,7 @@ TEST_F(PartFileTest, ANameOfItsOwnIsOnlyOneThatNobodyHas) {
   EXPECT_EQ(refusal(options), SinkReason::in_use) << "nobody writes it, and yet it is there";
 }
 
-TEST_F(PartFileTest, WhatIsNoFileIsRefusedAndLeftAsItIs) {
+TEST_F(PartFileTest, OtherThanFilesAreRefusedAndUnchanged) {
   for (const bool overwrite : {false, true}) {
     for (const std::string& other : {directory.path(), std::string("/dev/null")}) {
       const auto file = PartFile::open(other, {overwrite, Fifo::allowed});
@@ -130,7 +130,7 @@ TEST_F(PartFileTest, WhatIsNoFileIsRefusedAndLeftAsItIs) {
   EXPECT_EQ(refusal({true}), SinkReason::not_a_file) << "without waiting for a reader";
 }
 
-TEST_F(PartFileTest, AFifoIsWrittenAsItIsOnceSomebodyReadsIt) {
+TEST_F(PartFileTest, AFifoIsWrittenDirectlyOnceItHasAReader) {
   ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
   const PartFile::Options options{false, Fifo::allowed};
   EXPECT_EQ(refusal(options), SinkReason::no_reader);
@@ -154,7 +154,7 @@ class RecoverPart : public PartFileTest {
   const std::string head = "DMC01\n# time code\n10:20:30:12:1\n# constants\n720 576 0 0 0 0 8.8 6.6 8.8 6.6\n";
 };
 
-TEST_F(RecoverPart, WholeLinesAreKeptUnderANewName) {
+TEST_F(RecoverPart, CompleteLinesAreKeptUnderANewName) {
   write_text(left, head + "1 a field\n2 another\n3 half a");
   EXPECT_EQ(recover_part(left), directory / "crane.recovered.trk");
   EXPECT_EQ(read_text(directory / "crane.recovered.trk"), head + "1 a field\n2 another\n");
@@ -169,7 +169,7 @@ TEST_F(RecoverPart, NothingIsReplaced) {
   EXPECT_EQ(read_text(directory / "crane.recovered.trk"), "precious");
 }
 
-TEST_F(RecoverPart, ALongLastLineIsCutOffToo) {
+TEST_F(RecoverPart, ALongIncompleteLastLineIsRemovedToo) {
   write_text(left, head + "1\n" + std::string(100'000, 'x'));
   ASSERT_TRUE(recover_part(left));
   EXPECT_EQ(read_text(directory / "crane.recovered.trk"), head + "1\n");
@@ -183,7 +183,7 @@ TEST_F(RecoverPart, WithoutAFieldThereIsNothingToKeep) {
   }
 }
 
-TEST_F(RecoverPart, WhatIsNoTakeOrHasAWriterIsLeftAsItIs) {
+TEST_F(RecoverPart, OtherFilesAndThoseWithAWriterAreUnchanged) {
   write_text(left, "somebody's own\n1\n2\n3\n4\n");
   EXPECT_EQ(recover_part(left), std::nullopt);
   EXPECT_EQ(read_text(left), "somebody's own\n1\n2\n3\n4\n");

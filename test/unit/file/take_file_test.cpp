@@ -81,7 +81,7 @@ TEST_F(ReadTake, AnIdInALineIsKept) {
   EXPECT_EQ(take.params.at(0).id, 7u);
 }
 
-TEST_F(ReadTake, CarriageReturnsCommentsAndBlankLinesCountForNothing) {
+TEST_F(ReadTake, CarriageReturnsCommentsAndBlankLinesAreIgnored) {
   write_text(path, "\r\n  # one\r\nDMC01\r\n\r\n10:20:30:12:1\r\n#\r\n1920 1080 14 2 12 4 27 18 27 18\r\n\t\r\n" +
                        std::string("1 14.5 -4 15 158 -78 137 53.5 0.1 0.05 -0.001 -7e-06 16.5 8 1000"));
   const Take take = read_take(path);
@@ -120,7 +120,7 @@ TEST_F(ReadTake, ALineOf4096BytesIsTooLongAndOneByteLessIsNot) {
   EXPECT_EQ(read_take(path).params.size(), 1u);
 }
 
-TEST_F(ReadTake, ALastLineThatIsCutIsLeftOutWhereverTheCutIs) {
+TEST_F(ReadTake, ATruncatedLastLineIsIgnoredForAnyLength) {
   const std::string whole = head + std::string(line) + "1 14.5 -4 15 158 -78 137 53.5 0.1 0.05 -0.001 -7e-06 16.5 8 ";
   const std::string text = whole + "1001";
   const std::size_t second = (head + std::string(line)).size();
@@ -142,7 +142,7 @@ TEST_F(ReadTake, ALastLineThatIsCutIsLeftOutWhereverTheCutIs) {
   EXPECT_THAT(error_of_text(std::string(head).substr(0, 40)), StartsWith(path + ":3: ")) << "a head that is cut";
 }
 
-TEST_F(ReadTake, LinesThatAreNotSoundAreLeftOutWhenThatIsWanted) {
+TEST_F(ReadTake, MalformedLinesAreSkippedIfRequested) {
   const std::string good = line, bad = "1 14.5 -4 oops 158\n", with_nul = std::string(good).insert(3, 1, '\0');
   write_text(path, head + good + bad + good + with_nul + std::string(10'000, 'x') + "\n" + good + "1 2 3");
   EXPECT_THAT(error_of(path), StartsWith(path + ":5: field 4 is not a number"));
@@ -160,13 +160,13 @@ TEST_F(ReadTake, LinesThatAreNotSoundAreLeftOutWhenThatIsWanted) {
   EXPECT_THAT(positions, testing::ElementsAre(1, 2, 2, 3));
 }
 
-TEST_F(ReadTake, AByteOrderMarkIsPassedOver) {
+TEST_F(ReadTake, AByteOrderMarkIsSkipped) {
   write_text(path, "\xEF\xBB\xBF" + std::string(head) + line);
   EXPECT_EQ(read_take(path).params.size(), 1U);
   EXPECT_THAT(error_of_text(std::string(head) + "\xEF\xBB\xBF" + line), StartsWith(path + ":4: ")) << "in front only";
 }
 
-TEST_F(ReadTake, OfALineWithoutEndNoMoreIsReadThanALineHas) {
+TEST_F(ReadTake, ALineWithoutEndIsReadOnlyUpToTheLimit) {
   // 1 GB with holes: a reader that takes it as a whole needs that much memory, which it does not have here.
   write_text(path, head);
   ASSERT_EQ(::truncate(path.c_str(), 1 << 30), 0);
@@ -186,7 +186,7 @@ TEST_F(ReadTake, OfALineWithoutEndNoMoreIsReadThanALineHas) {
   EXPECT_EQ(status, 0);
 }
 
-TEST_F(ReadTake, WhatIsNoFileIsRefusedWithoutBeingRead) {
+TEST_F(ReadTake, OtherThanFilesAreRefusedWithoutBeingRead) {
   EXPECT_EQ(error_of("/dev/zero"), "/dev/zero: cannot be read: it is a device; allowed are regular files and FIFOs");
 }
 
@@ -216,13 +216,13 @@ TEST_F(ReadTake, AFifoIsReadToItsEnd) {
   writer.join();
 }
 
-TEST_F(ReadTake, WhatCannotBeReadSaysWhy) {
+TEST_F(ReadTake, ReportsWhyAFileCannotBeRead) {
   EXPECT_EQ(error_of(directory / "absent.trk"),
             directory / "absent.trk" + ": cannot be read: No such file or directory");
   EXPECT_EQ(error_of(directory.path()), directory.path() + ": cannot be read: Is a directory");
 }
 
-TEST_F(ReadTake, ATakeThatEndedBeforeItsFirstFieldIsOne) {
+TEST_F(ReadTake, ATakeWithoutFieldsIsValid) {
   write_text(path, head);
   EXPECT_TRUE(read_take(path).params.empty());
 }

@@ -96,7 +96,7 @@ TEST_F(WriteTake, TheFinalNameAppearsOnlyAtClose) {
   EXPECT_EQ(writer.write(some_constants()).error().reason, SinkReason::closed);
 }
 
-TEST_F(WriteTake, AWriterThatDiesLeavesItsFieldsInThePartOnly) {
+TEST_F(WriteTake, AWriterThatCrashesLeavesItsFieldsInThePartOnly) {
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
@@ -113,7 +113,7 @@ TEST_F(WriteTake, AWriterThatDiesLeavesItsFieldsInThePartOnly) {
   EXPECT_EQ(read_take(directory / "take.recovered.trk").params.size(), 2u);
 }
 
-TEST_F(WriteTake, OverwritingHasToBeAskedFor) {
+TEST_F(WriteTake, OverwritingMustBeRequested) {
   write_text(path, "precious");
   EXPECT_THAT(opening_error(), HasSubstr(path));
   EXPECT_THAT(opening_error(), HasSubstr("overwrite=1"));
@@ -127,7 +127,7 @@ TEST_F(WriteTake, OverwritingHasToBeAskedFor) {
   EXPECT_TRUE(read_take(path).params.empty());
 }
 
-TEST_F(WriteTake, AFileThatCameMeanwhileIsNotOverwritten) {
+TEST_F(WriteTake, AFileThatAppearedWhileWritingIsNotOverwritten) {
   TakeWriter writer(path, code, false);
   ASSERT_TRUE(writer.write(some_constants()));
   write_text(path, "precious");
@@ -201,7 +201,7 @@ TEST_F(WriteTake, OnlyOneWriterAtATime) {
   EXPECT_THAT(opening_error(true), HasSubstr("another writer is writing"));
 }
 
-TEST_F(WriteTake, ConstantsComeFirstAndStay) {
+TEST_F(WriteTake, ConstantsComeFirstAndCannotChange) {
   TakeWriter writer(path, code, false);
   EXPECT_EQ(writer.write(some_params(1)).error().reason, SinkReason::no_constants);
   const auto constants = some_constants();
@@ -222,7 +222,7 @@ TEST_F(WriteTake, ConstantsComeFirstAndStay) {
   EXPECT_EQ(take.params[1].counter, 4u);
 }
 
-TEST_F(WriteTake, AFileHoldsOneCamera) {
+TEST_F(WriteTake, AFileContainsOneCamera) {
   TakeWriter writer(path, code, false);
   auto constants = some_constants();
   auto params = some_params(1);
@@ -237,7 +237,7 @@ TEST_F(WriteTake, AFileHoldsOneCamera) {
   EXPECT_EQ(read_take(path).params.size(), 1u);
 }
 
-TEST_F(WriteTake, ConstantsWithoutIdServeOneCameraOfAnyId) {
+TEST_F(WriteTake, ConstantsWithoutIdAreValidForOneCameraWithAnyId) {
   TakeWriter writer(path, code, false);
   auto constants = some_constants();
   constants.id = 0;
@@ -265,7 +265,7 @@ TEST_F(WriteTake, WithoutConstantsThereIsNoTake) {
   EXPECT_FALSE(exists(part));
 }
 
-TEST_F(WriteTake, WhatIsNotFiniteNeverGetsIntoAFile) {
+TEST_F(WriteTake, ValuesThatAreNotFiniteAreNeverWritten) {
   TakeWriter writer(path, code, false);
   ASSERT_TRUE(writer.write(some_constants()));
   auto params = some_params(1);
@@ -277,7 +277,7 @@ TEST_F(WriteTake, WhatIsNotFiniteNeverGetsIntoAFile) {
   EXPECT_TRUE(writer.write(some_params(2)));
 }
 
-TEST_F(WriteTake, AFullDiskCostsOnlyTheLineThatDidNotFit) {
+TEST_F(WriteTake, OnAFullDiskOnlyTheLineThatDidNotFitIsLost) {
   struct Limit {
     Limit() {
       ::getrlimit(RLIMIT_FSIZE, &before);
@@ -312,7 +312,7 @@ TEST_F(WriteTake, AFullDiskCostsOnlyTheLineThatDidNotFit) {
   EXPECT_EQ(take.params[1].counter, 3u);
 }
 
-TEST_F(WriteTake, AnUnwritablePlaceSaysWhich) {
+TEST_F(WriteTake, AnUnwritablePathIsNamed) {
   const std::string nowhere = directory / "absent/take.trk";
   const std::string error = test::error_of<TransportError>([&] { const TakeWriter writer(nowhere, code, false); });
   EXPECT_THAT(error, HasSubstr(nowhere));

@@ -105,7 +105,7 @@ TEST(FreeDDecoder, APanPast180DegreesIsContinuous) {
   EXPECT_EQ(params_of(message_of(190)).euler.pan, -190) << "what the sender counts is kept";
 }
 
-TEST(FreeDDecoder, FaultsSayWhatIsWrong) {
+TEST(FreeDDecoder, FaultsNameTheProblem) {
   const std::string good = test::worked_message();
   EXPECT_THAT(fault_of(""), HasSubstr("wrong size: not the 29 bytes"));
   EXPECT_THAT(fault_of(good.substr(0, 28)), HasSubstr("wrong size"));
@@ -151,7 +151,7 @@ Sample sample_of(const std::string& datagram, DecoderOptions options) {
   return sample;
 }
 
-TEST(FreeDProfile, ZcamTellsItsLens) {
+TEST(FreeDProfile, ZcamSendsItsLens) {
   // The maker's example: 950 is 9.50 mm, 12300 is 1230.0 mm, F2.8 is 280 = 0x118, the frame's number above it.
   const auto sample = sample_of(counts(950, 12300, 0x5118), {Profile::zcam, nullptr, false});
   const auto& p = std::get<wire::CameraParams>(sample.record);

@@ -100,7 +100,7 @@ TEST(FreeDEncoder, EveryFormatGivesTheSameBytes) {
   }
 }
 
-TEST(FreeDEncoder, PanGoesOnPast180Degrees) {
+TEST(FreeDEncoder, PanContinuesPast180Degrees) {
   Encoder encoder({});
   // Free-D's 170 to 250 degrees, as trk tells it between -180 and 180.
   for (int pan = 170; pan <= 250; pan += 5) {
@@ -146,7 +146,7 @@ TEST(FreeDEncoder, RecordsThatCannotBeWritten) {
   EXPECT_FALSE(encoder.begin(bad));
 }
 
-TEST(FreeDEncoder, ATableGivesTheCountsBack) {
+TEST(FreeDEncoder, ATableConvertsBackToCounts) {
   const auto table = table_of(R"(
 points:
 - {zoom: 1000, focal_length: 8}
@@ -175,7 +175,7 @@ focus:
   EXPECT_THAT(datagram_of(p, {Profile::generic, table, true}), HasSubstr("outside of the lens table"));
 }
 
-TEST(FreeDEncoder, WhatItWritesIsReadBackAsTheSamePose) {
+TEST(FreeDEncoder, PosesRoundTrip) {
   for (int i = 0; i < 200; ++i) {
     auto p = test::params(1, 9);
     p.euler = {i * 0.31 - 30, 7 - i * 0.2, i * 0.01, i * 1.7 - 170, i * 0.8 - 80, i * 0.9 - 90};

@@ -63,7 +63,7 @@ TEST(FreeDUrl, AnErrorOfALensTableNamesTheRow) {
               AllOf(HasSubstr("lens.yaml:3: "), HasSubstr("zoom 0: must be more than that of the row before")));
 }
 
-TEST(FreeDStream, WhatASinkSendsASourceReads) {
+TEST(FreeDStream, ASourceReadsWhatASinkSends) {
   const auto source = open_source("freed://127.0.0.1:0?profile=zcam");
   const auto sink = open_sink("freed://127.0.0.1:" + std::to_string(test::port_of(*source)) + "?profile=zcam");
   ASSERT_TRUE(sink->write(test::constants(720, 7)));

@@ -49,7 +49,7 @@ TEST(LensTable, PchipByHand) {
   EXPECT_DOUBLE_EQ(table.lens_at({30, 0})->k2, 0.0003);
 }
 
-TEST(LensTable, LinearWhereAsked) {
+TEST(LensTable, LinearIfRequested) {
   const Table table = table_of(std::string("interpolation: linear") + three_points);
   EXPECT_DOUBLE_EQ(focal_length(table, 5), 10);
   EXPECT_DOUBLE_EQ(focal_length(table, 20), 26);
@@ -102,7 +102,7 @@ TEST(LensTable, FocusChangesTheFocalLength) {
   EXPECT_FALSE(table.lens_at({50, 1011}));
 }
 
-TEST(LensTable, TheWayBack) {
+TEST(LensTable, ConvertsBackToCounts) {
   const Table table = table_of(breathing);
   for (double zoom = 0; zoom <= 100; zoom += 7) {
     for (double focus = 0; focus <= 1000; focus += 90) {
@@ -124,7 +124,7 @@ TEST(LensTable, TheWayBack) {
   EXPECT_FALSE(table.position_of(lens));
 }
 
-TEST(LensTable, TheWayBackWhereFocalLengthsAndDistancesFall) {
+TEST(LensTable, ConvertsBackIfFocalLengthsAndDistancesDecrease) {
   const Table table = table_of(R"(
 points: [{zoom: 0, focal_length: 100}, {zoom: 50, focal_length: 30}, {zoom: 100, focal_length: 10}]
 focus: [{count: 0, distance: 10}, {count: 100, distance: 1}]
@@ -137,7 +137,7 @@ focus: [{count: 0, distance: 10}, {count: 100, distance: 1}]
   }
 }
 
-TEST(LensTable, WhatIsWrongIsNamedWithItsLine) {
+TEST(LensTable, FaultsAreNamedWithTheirLine) {
   EXPECT_EQ(error_of(""), "lens.yaml:1: must be a map with points");
   EXPECT_THAT(error_of("point: 1"), StartsWith("lens.yaml:1: no such key 'point', nearest is points"));
   EXPECT_THAT(error_of("points: [{zoom: 0, focal_length: 8}]"), HasSubstr("must be a list of two or more"));
@@ -186,7 +186,7 @@ TEST(LensTable, FocusAndConstantsAreChecked) {
   EXPECT_THAT(error_of(points + "interpolation: cubic"), HasSubstr("must be pchip or linear"));
 }
 
-TEST(LensTable, TheExampleIsSound) {
+TEST(LensTable, TheExampleIsValid) {
   const auto table = Table::load(LENS_EXAMPLE);
   ASSERT_TRUE(table) << table.error();
   EXPECT_EQ((*table)->points().points.size(), 18U);

@@ -38,7 +38,7 @@ std::vector<std::string> texts(const std::vector<std::string>& alarms, const Sta
   return found;
 }
 
-TEST(Alarm, IsRaisedBeyondItsLimitAlone) {
+TEST(Alarm, IsRaisedOnlyBeyondItsLimit) {
   EXPECT_THAT(texts({"loss>1%", "rate<49.5Hz"}, state_with(1, 49.5)), IsEmpty());
   EXPECT_THAT(texts({"loss>1%", "rate<49.5Hz", "rate>60"}, state_with(1.5, 49.4)),
               ElementsAre("ALARM loss>1%: id 7: loss 1.50 %", "ALARM rate<49.5Hz: id 7: rate 49.40 Hz"));

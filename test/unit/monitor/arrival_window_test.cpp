@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t ms = 1'000'000;
 
-TEST(ArrivalWindow, TellsNothingOfTooFew) {
+TEST(ArrivalWindow, ReportsNothingForTooFewRecords) {
   ArrivalWindow window;
   EXPECT_FALSE(window.rate());
   window.add(0);
@@ -58,7 +58,7 @@ TEST(ArrivalWindow, PercentilesAreByNearestRank) {
   EXPECT_EQ(jitter.worst, 20 * ms);
 }
 
-TEST(ArrivalWindow, WhatIsOlderThanTenSecondsIsForgotten) {
+TEST(ArrivalWindow, RecordsOlderThanTenSecondsAreRemoved) {
   ArrivalWindow window;
   window.add(0);
   window.add(100 * ms);
@@ -68,7 +68,7 @@ TEST(ArrivalWindow, WhatIsOlderThanTenSecondsIsForgotten) {
   EXPECT_DOUBLE_EQ(window.rate().value(), 10);
 }
 
-TEST(ArrivalWindow, HoldsABoundedNumber) {
+TEST(ArrivalWindow, HasALimitedSize) {
   ArrivalWindow window;
   window.add(0);
   window.add(500'000);  // an interval unlike the others, which has to go

@@ -19,7 +19,7 @@ PoseNumbers moved(std::size_t number, double by) {
   return pose;
 }
 
-TEST(AxisCheck, SaysWhichAxisMovedAndItsSign) {
+TEST(AxisCheck, ReportsWhichAxisMovedAndItsSign) {
   AxisCheck check;
   EXPECT_THAT(check.lines(), IsEmpty());
   check.begin(start);

@@ -22,7 +22,7 @@ TEST(Curve, RisesFromTheLowestDotToTheHighest) {
               ElementsAre("       3.0   .': ", "       0.0 .'  : "));
 }
 
-TEST(Curve, OfOneValueIsInTheMiddleOfTheLeastRange) {
+TEST(Curve, OfOneValueIsInTheMiddleOfTheSmallestRange) {
   EXPECT_THAT(curve({at(5), at(5)}, 2, 1, 2), ElementsAre("       6.0 ..", "       4.0   "));
 }
 
@@ -77,7 +77,7 @@ TEST(History, GivesTheRangesOfItsColumns) {
   EXPECT_TRUE(later[5].is_empty()) << "nothing came since";
 }
 
-TEST(History, KeepsAMinuteAndBeginsAgainWhenTimeGoesBack) {
+TEST(History, KeepsAMinuteAndIsClearedWhenTimeGoesBack) {
   History history;
   Values values{};
   for (std::int64_t n = 0; n < 70; ++n) history.add(n * 1000 * ms + ms, values);

@@ -125,7 +125,7 @@ TEST(TenFaults, NothingIsWrong) {
   EXPECT_FIRST(studio.state(five_seconds), receiving, HasSubstr("id 7: receiving from 127.0.0.1:"));
 }
 
-TEST(Findings, SeveralGoodCamerasAreOneLine) {
+TEST(Findings, SeveralCamerasWithoutFaultsAreOneLine) {
   Studio studio;
   Tracker one(studio, 1), two(studio, 2);
   for (std::uint64_t n = 0; n <= 50; ++n) {
@@ -297,7 +297,7 @@ TEST(TenFaults, Ten_AnotherProtocol) {
   EXPECT_FIRST(state, nothing_valid, HasSubstr("none is trk"));
 }
 
-TEST(Findings, OfACountThatIsNoTimeCodeNothingIsSaid) {
+TEST(Findings, ACountThatIsNotATimeCodeIsNotReported) {
   for (const std::uint64_t begin : {0U, 90U, 2'000U, 10'205'900U, 0x10205900U}) {
     TimeCodeCounter counter;
     for (std::uint64_t n = 0; n < 2000; ++n) {
@@ -307,7 +307,7 @@ TEST(Findings, OfACountThatIsNoTimeCodeNothingIsSaid) {
   }
 }
 
-TEST(Findings, WhatIsLostInAGapIsNoStall) {
+TEST(Findings, AGapOfLostRecordsIsNotAStall) {
   ArrivalWindow arrivals;
   for (std::int64_t n = 0; n < 500; ++n) {
     if (n % 100 < 80) arrivals.add(n * 20 * ms, n % 100 == 0 ? 21 : 1);
@@ -324,7 +324,7 @@ TEST(Findings, APauseThatLosesNothingIsAStall) {
   EXPECT_EQ(found.at_once, 1U);
 }
 
-TEST(Findings, WhatIsLostIsOfTheLastSeconds) {
+TEST(Findings, LossIsThatOfTheLastSeconds) {
   Studio studio;
   Tracker tracker(studio, 7);
   tracker.send(0, 0);

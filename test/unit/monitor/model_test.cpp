@@ -38,7 +38,7 @@ TEST_F(ModelTest, KnowsNothingAtFirst) {
   EXPECT_EQ(s.source_name, feed.source()->name());
 }
 
-TEST_F(ModelTest, TellsRateCounterLossAndAge) {
+TEST_F(ModelTest, ReportsRateCounterLossAndAge) {
   for (const std::uint64_t counter : {100U, 101U, 103U, 102U, 103U, 104U}) {
     add(test::params(counter, 7), milliseconds(20 * static_cast<int>(counter - 100)));
   }
@@ -87,7 +87,7 @@ TEST_F(ModelTest, ARecordThatComesTwiceIsNotNew) {
   EXPECT_NEAR(s.cameras.front().rate.value(), 50, 1e-9);
 }
 
-TEST_F(ModelTest, ACounterThatStandsStillIsAFindingAndNoSilence) {
+TEST_F(ModelTest, ACounterThatStandsStillIsAFindingAndNotSilence) {
   for (int at = 0; at <= 2000; at += 20) add(test::params(5), milliseconds(at));
   add(test::constants(), milliseconds(2000));
   const auto s = state(milliseconds(2000));
@@ -96,7 +96,7 @@ TEST_F(ModelTest, ACounterThatStandsStillIsAFindingAndNoSilence) {
   EXPECT_THAT(s.findings.front().text, testing::HasSubstr("the counter stands still"));
 }
 
-TEST_F(ModelTest, AfterAResetNothingIsKnownOfBefore) {
+TEST_F(ModelTest, AResetClearsEverything) {
   for (std::uint64_t n = 0; n < 10; ++n) add(test::params(2 * n), milliseconds(20 * static_cast<int>(n)));
   EXPECT_EQ(state(milliseconds(200)).findings.front().condition, bridge::Condition::lost);
   const auto source = feed.source();
@@ -110,7 +110,7 @@ TEST_F(ModelTest, AfterAResetNothingIsKnownOfBefore) {
   EXPECT_NEAR(s.age, 0.1, 1e-9);
 }
 
-TEST_F(ModelTest, AStateThatIsHeldStaysAsItIs) {
+TEST_F(ModelTest, AFrozenStateDoesNotChange) {
   add(test::params(1), milliseconds(20));
   const auto live = state(milliseconds(20));
   const auto kept = frozen(live);
@@ -129,7 +129,7 @@ TEST_F(ModelTest, SilenceIsMoreThanASecondAndThreeIntervals) {
   EXPECT_TRUE(state(milliseconds(10'100)).cameras.front().latest->is_silent);
 }
 
-TEST_F(ModelTest, TellsPoseAndLensInCanonicalTerms) {
+TEST_F(ModelTest, ReportsPoseAndLensInCanonicalUnits) {
   auto params = test::params(1);
   params.format = wire::euler | wire::field_of_view;
   params.fov = 40;
@@ -154,7 +154,7 @@ TEST_F(ModelTest, TellsPoseAndLensInCanonicalTerms) {
   EXPECT_NEAR(*latest.horizontal_angle, 40, 1e-9);
 }
 
-TEST_F(ModelTest, NoPoseWhereTheMatrixIsNoRotation) {
+TEST_F(ModelTest, NoPoseIfTheMatrixIsNotARotation) {
   wire::CameraParams params;
   params.fov = 10;
   add(params, milliseconds(0));
@@ -200,7 +200,7 @@ TEST_F(ModelTest, ACameraAtRestHasItsNoise) {
   EXPECT_NEAR(rest.deviation[3], 0, 1e-9);
 }
 
-TEST_F(ModelTest, MoreCamerasThanAnyStudioHasAreCountedOnly) {
+TEST_F(ModelTest, CamerasBeyondTheLimitAreOnlyCounted) {
   for (std::uint32_t id = 1; id <= 260; ++id) add(test::params(1, id), milliseconds(0));
   const auto s = state(milliseconds(0));
   EXPECT_EQ(s.cameras.size(), cli::Tally::most_cameras);

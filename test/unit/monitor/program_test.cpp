@@ -181,7 +181,7 @@ class Tracker {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST(TrkMonitor, ShowsWhatComesWhateverTheSize) {
+TEST(TrkMonitor, ShowsRecordsInTerminalsOfAnySize) {
   MonitorOnATerminal monitor;
   Tracker tracker(monitor.port());
   EXPECT_TRUE(monitor.shows("! waiting for udp port")) << monitor.screen.text();
@@ -345,7 +345,7 @@ TEST(TrkMonitor, AnAlarmRingsAndIsTheExitCode) {
   EXPECT_EQ(monitor.wait(), cli::exit_alarm);
 }
 
-TEST(TrkMonitor, AnAlarmThatIsNotRaisedIsNoError) {
+TEST(TrkMonitor, AnAlarmThatIsNotRaisedIsNotAnError) {
   test::Program quiet({TRK_TOOL, "monitor", "--alarm", "silence>100s", "--seconds", "0.2", "udp://127.0.0.1:0"});
   quiet.rest_of_out();
   quiet.rest_of_err();
@@ -393,14 +393,14 @@ TEST(TrkMonitor, HasColourUnlessSwitchedOff) {
   }
 }
 
-TEST(TrkMonitor, ATerminalOfNoKnownTypeIsAnError) {
+TEST(TrkMonitor, ATerminalOfUnknownTypeIsAnError) {
   MonitorOnATerminal monitor("no_such_terminal");
   EXPECT_EQ(monitor.wait(), 1);
   EXPECT_TRUE(monitor.is_as_before());
   EXPECT_THAT(monitor.written, HasSubstr("trk: error: TERM='no_such_terminal': no terminal of that type is known"));
 }
 
-TEST(TrkMonitor, IntoAPipeItIsALineASecond) {
+TEST(TrkMonitor, IntoAPipeItIsOneLinePerSecond) {
   test::Program monitor({TRK_TOOL, "monitor", "udp://127.0.0.1:0"});
   const std::string reading = monitor.err_line().value_or("");
   ASSERT_THAT(reading, StartsWith("trk: reading udp port "));
@@ -425,7 +425,7 @@ TEST(TrkMonitor, EndsAfterTheTimeGiven) {
   EXPECT_EQ(monitor.wait(), 0);
 }
 
-TEST(TrkMonitor, AReaderThatWentAwayIsAnOrdinaryEnd) {
+TEST(TrkMonitor, AReaderThatClosesThePipeIsNotAnError) {
   test::Program monitor({TRK_TOOL, "monitor", "udp://127.0.0.1:0"});
   ASSERT_TRUE(monitor.out_line());
   monitor.close_out();

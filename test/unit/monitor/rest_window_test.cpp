@@ -26,7 +26,7 @@ TEST(RestWindow, KnowsNothingAtFirst) {
   EXPECT_EQ(rest_after(2.7, [](int) { return PoseNumbers{}; }).motion, Motion::still);
 }
 
-TEST(RestWindow, TooFewPosesTellNothing) {
+TEST(RestWindow, TooFewPosesGiveNoResult) {
   RestWindow window;
   for (int n = 0; n < 19; ++n) window.add(n * 160'000'000LL, {});
   EXPECT_EQ(window.judge().motion, Motion::unknown);
@@ -40,7 +40,7 @@ TEST(RestWindow, DeviationIsThatOfTheSample) {
   for (std::size_t i = 1; i < 6; ++i) EXPECT_EQ(rest.deviation[i], 0) << i;
 }
 
-TEST(RestWindow, NoiseIsNoMotion) {
+TEST(RestWindow, NoiseIsNotMotion) {
   std::mt19937 random(1);
   std::normal_distribution<double> mm(0, 0.0005), degrees(0, 0.01);
   const auto rest = rest_after(4.0, [&](int) {
@@ -51,25 +51,25 @@ TEST(RestWindow, NoiseIsNoMotion) {
   for (std::size_t i = 3; i < 6; ++i) EXPECT_NEAR(rest.deviation[i], 0.01, 0.002) << i;
 }
 
-TEST(RestWindow, ASlowMoveIsMotionThoughItsRangeIsSmall) {
+TEST(RestWindow, ASlowMoveIsMotionAlthoughItsRangeIsSmall) {
   // A millimetre a second: 3 mm in the window, less than the noise that is let through.
   EXPECT_EQ(rest_after(4.0, [](int n) { return PoseNumbers{n * 0.00002, 0, 0, 0, 0, 0}; }).motion, Motion::moving);
   // A fiftieth of a degree a second.
   EXPECT_EQ(rest_after(4.0, [](int n) { return PoseNumbers{0, 0, 0, n * 0.0004, 0, 0}; }).motion, Motion::moving);
 }
 
-TEST(RestWindow, AWideSwingIsMotionThoughItComesBack) {
+TEST(RestWindow, AWideSwingIsMotionAlthoughItReturns) {
   const auto rest = rest_after(4.0, [](int n) { return PoseNumbers{0, 0, 0, 0, 0.5 * std::sin(n * 0.5), 0}; });
   EXPECT_EQ(rest.motion, Motion::moving);
 }
 
-TEST(RestWindow, AnglesGoTheShortWayRound) {
+TEST(RestWindow, AnglesUseTheSmallestDifference) {
   const auto rest = rest_after(3.0, [](int n) { return PoseNumbers{0, 0, 0, n % 2 == 0 ? 179.99 : -179.99, 0, 0}; });
   ASSERT_EQ(rest.motion, Motion::still);
   EXPECT_NEAR(rest.deviation[3], 0.02 * std::sqrt(76.0 * 75.0 / (151.0 * 150.0)), 1e-9);
 }
 
-TEST(RestWindow, StandsStillThreeSecondsAfterAMove) {
+TEST(RestWindow, IsAtRestThreeSecondsAfterAMove) {
   const auto pose = [](int n) { return PoseNumbers{n < 100 ? n * 0.01 : 1.0, 0, 0, 0, 0, 0}; };
   EXPECT_EQ(rest_after(4.0, pose).motion, Motion::moving);
   EXPECT_EQ(rest_after(5.1, pose).motion, Motion::still);

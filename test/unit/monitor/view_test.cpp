@@ -101,7 +101,7 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-TEST(View, NothingOverflowsWhateverTheSize) {
+TEST(View, NothingOverflowsAtAnySize) {
   State strange = troubled_state(40);
   strange.source_name = "file " + std::string(300, 'x') + "\xC3\xA4\x1B[31m";
   strange.source.state = transport::SourceState::failed;
@@ -147,7 +147,7 @@ TEST(View, NothingOverflowsWhateverTheSize) {
   EXPECT_THAT(screen_of(strange, {}, {80, 0}), IsEmpty());
 }
 
-TEST(View, LabelsValuesAndUnitsStandInColumns) {
+TEST(View, LabelsValuesAndUnitsAreInColumns) {
   const auto lines = text_of(state_with(1), {80, 24});
   EXPECT_THAT(std::vector<std::string>(lines.begin(), lines.begin() + 13),
               ElementsAre("trk monitor  receiving  records 12345  malformed 0", "  udp port 7000 on every interface",
@@ -171,7 +171,7 @@ TEST(View, AWideTerminalHasMoreInALine) {
                               "-5.000 deg roll     0.250 deg\n"));
 }
 
-TEST(View, ASmallTerminalHasTheImportantAndSaysWhatIsHidden) {
+TEST(View, ASmallTerminalShowsTheImportantAndNamesWhatIsHidden) {
   auto state = troubled_state(2);
   const auto lines = text_of(state, {40, 10});
   ASSERT_THAT(lines, SizeIs(10));
@@ -191,7 +191,7 @@ TEST(View, WhatIsHiddenIsNamed) {
   EXPECT_THAT(joined(text_of(state_with_history(1), {60, 40})), HasSubstr("hidden: histogram"));
 }
 
-TEST(View, PlotsAndAHistogramUseTheRoomThatIsLeft) {
+TEST(View, PlotsAndAHistogramUseTheRemainingSpace) {
   const auto lines = text_of(state_with_history(1), {132, 43});
   const std::string text = joined(lines);
   EXPECT_THAT(text, AllOf(HasSubstr("pan (deg), last 10 s"), HasSubstr("tilt (deg), last 10 s"),
@@ -209,7 +209,7 @@ TEST(View, PlotsAndAHistogramUseTheRoomThatIsLeft) {
   EXPECT_THAT(joined(text_of(state_with_history(1), {80, 24}, choice)), HasSubstr("interval (ms), last 60 s"));
 }
 
-TEST(View, OtherCamerasAreALineEachAndTheRestCounted) {
+TEST(View, OtherCamerasHaveOneLineEachAndTheRestIsCounted) {
   auto lines = text_of(state_with(30), {200, 24});
   ASSERT_THAT(lines, SizeIs(24));
   EXPECT_THAT(joined(lines), AllOf(HasSubstr("> id 1  50.00 Hz"), HasSubstr("\n  id 2 "), HasSubstr("more cameras")));
@@ -220,7 +220,7 @@ TEST(View, OtherCamerasAreALineEachAndTheRestCounted) {
                                    Not(HasSubstr("\n  id 5 ")), Not(HasSubstr("more camera"))));
 }
 
-TEST(View, SaysWhenItIsPausedAndGuides) {
+TEST(View, ShowsWhetherItIsPausedAndGuides) {
   Choice choice;
   choice.is_paused = true;
   choice.notice = "recording take.trk";
@@ -231,7 +231,7 @@ TEST(View, SaysWhenItIsPausedAndGuides) {
                                    HasSubstr("\nspace: next step  a: end")));
 }
 
-TEST(View, TheHelpOfEveryKeyHasRoomInASmallTerminal) {
+TEST(View, TheHelpOfEveryKeyFitsInASmallTerminal) {
   const auto small = plain(help_screen({40, 10}));
   EXPECT_THAT(joined(small), AllOf(HasSubstr("?  help"), HasSubstr("q  quit"), HasSubstr("a  axis check")));
   EXPECT_THAT(small, testing::Contains("Any key goes back."));
@@ -245,7 +245,7 @@ TEST(View, HasTheTimeCode) {
   EXPECT_THAT(plain_lines_of(state, 1).front(), HasSubstr("counter 1234567  10:20:30;12:1  age"));
 }
 
-TEST(View, CountsOfALensWithoutALens) {
+TEST(View, EncoderCountsWithoutALens) {
   State state = state_with(1);
   state.source.doubtful = 2;
   auto& camera = state.cameras.front();
@@ -262,7 +262,7 @@ TEST(View, CountsOfALensWithoutALens) {
   EXPECT_THAT(text, Not(HasSubstr("CONSTANTS"))) << "they would be of no use";
 }
 
-TEST(View, TellsTrouble) {
+TEST(View, ShowsFaults) {
   auto state = troubled_state(2);
   state.cameras[0].counts.lost = 4;
   state.cameras[0].counts.duplicates = 2;
@@ -290,7 +290,7 @@ TEST(View, TellsTrouble) {
   EXPECT_THAT(text, HasSubstr("shift_on_chip and unknown bits"));
 }
 
-TEST(View, TroubleStandsOut) {
+TEST(View, FaultsAreHighlighted) {
   auto state = troubled_state(1);
   state.cameras[0].counts.lost = 4;
   state.findings.insert(state.findings.begin(), {bridge::Condition::alarm, bridge::Level::error, "ALARM"});
@@ -307,7 +307,7 @@ TEST(View, TroubleStandsOut) {
   EXPECT_THAT(errors, ElementsAre("! ALARM", HasSubstr("no lens: ")));
 }
 
-TEST(View, BeforeTheFirstRecordItSaysWhatItWaitsFor) {
+TEST(View, BeforeTheFirstRecordItShowsWhatItWaitsFor) {
   State state;
   state.source_name = "shm slot 7";
   state.findings = {{bridge::Condition::waiting, bridge::Level::stale, "waiting for slot 7: no segment"}};
@@ -318,7 +318,7 @@ TEST(View, BeforeTheFirstRecordItSaysWhatItWaitsFor) {
                                                     "trk monitor  waiting  records 0  malformed 0  shm slot 7"));
 }
 
-TEST(View, PlainLinesAreOneACamera) {
+TEST(View, ThereIsOnePlainLinePerCamera) {
   const auto lines = plain_lines_of(state_with(2), 1);
   ASSERT_THAT(lines, SizeIs(2));
   EXPECT_THAT(lines[1], AllOf(StartsWith("id 2  50.00 Hz  192.0.2.7:50123  counter 1234567"),

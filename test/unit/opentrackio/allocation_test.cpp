@@ -18,7 +18,7 @@ std::uint64_t allocations_for(PacketDecoder& decoder, const std::string& datagra
   });
 }
 
-TEST(Allocation, OfWhatIsNotRead) {
+TEST(Allocation, ForDatagramsThatAreNotRead) {
   PacketDecoder decoder(false, 37);
   const std::string good = test::packet_of(test::full_sample().dump());
   std::string broken = good;

@@ -48,7 +48,7 @@ std::string fault_of(const Json& sample) {
   return all.faults.empty() ? "" : all.faults.front();
 }
 
-TEST(OpenTrackIoDecoder, AWholeSampleInBothEncodings) {
+TEST(OpenTrackIoDecoder, ACompleteSampleInBothEncodings) {
   for (const Encoding encoding : {Encoding::json, Encoding::cbor}) {
     const Given all = given_of(full_sample(), encoding);
     ASSERT_THAT(all.faults, IsEmpty());
@@ -84,7 +84,7 @@ TEST(OpenTrackIoDecoder, AWholeSampleInBothEncodings) {
   }
 }
 
-TEST(OpenTrackIoDecoder, WhatIsNotThereIsSaid) {
+TEST(OpenTrackIoDecoder, MissingPartsAreReported) {
   const Json sample = full_sample();
   const Given no_lens = given_of(without(sample, "", "lens"));
   EXPECT_FALSE(no_lens.samples.at(1).has_lens);
@@ -99,7 +99,7 @@ TEST(OpenTrackIoDecoder, WhatIsNotThereIsSaid) {
   EXPECT_THAT(no_pixels.samples[0].origin, HasSubstr("no activeSensorResolution"));
 }
 
-TEST(OpenTrackIoDecoder, WhatIsLostIsSaid) {
+TEST(OpenTrackIoDecoder, OmittedPartsAreReported) {
   const Json sample = full_sample();
   EXPECT_THAT(given_of(with(sample, "/lens/distortion/0/tangential", {0.0, 1e-4})).samples.at(1).origin,
               HasSubstr("tangential"));
@@ -144,7 +144,7 @@ TEST(OpenTrackIoDecoder, TimeCodesOfAllRates) {
   EXPECT_EQ(code_of(29, 30000, 1001, 0, true), "01:02:03;29:1 at 59.940060");
 }
 
-TEST(OpenTrackIoDecoder, SourceNumbersThatAreNoneAreRefused) {
+TEST(OpenTrackIoDecoder, InvalidSourceNumbersAreRefused) {
   const std::string rule = "sourceNumber is missing or not 1 to 200";
   for (const Json& number : {Json(0), Json(201), Json(255), Json(70000)}) {
     EXPECT_THAT(fault_of(with(full_sample(), "/sourceNumber", number)), HasSubstr(rule));
@@ -156,7 +156,7 @@ TEST(OpenTrackIoDecoder, SourceNumbersThatAreNoneAreRefused) {
   for (const int number : {1, 200}) EXPECT_EQ(fault_of(with(full_sample(), "/sourceNumber", number)), "");
 }
 
-TEST(OpenTrackIoDecoder, UnknownMembersArePassedOver) {
+TEST(OpenTrackIoDecoder, UnknownMembersAreIgnored) {
   Json sample = full_sample();
   sample["custom"] = {{"pot1", 2435}, {"deep", {{"er", {1, {{"x", nullptr}}, "text"}}}}};
   sample["lens"]["encoders"] = {{"focus", 0.1}};
@@ -193,7 +193,7 @@ TEST(OpenTrackIoDecoder, WrongTypesNameTheMember) {
   EXPECT_EQ(fault_of(with(sample, "/timing/sequenceNumber", 12.0)), "") << "a whole number all the same";
 }
 
-TEST(OpenTrackIoDecoder, TextThatIsNotOfTheEncoding) {
+TEST(OpenTrackIoDecoder, PayloadsOfAnotherEncoding) {
   PacketDecoder decoder(false, 37);
   const std::string text = full_sample().dump();
   EXPECT_THAT(given(decoder, packet_of(text.substr(0, 100))).faults, ElementsAre(HasSubstr("not JSON")));
@@ -282,7 +282,7 @@ TEST(OpenTrackIoDecoder, SegmentsOfTwoSendersDoNotMix) {
   EXPECT_EQ(given(decoder, other[2], 2).params().counter, 6U);
 }
 
-TEST(OpenTrackIoDecoder, ASampleThatLacksASegmentIsDiscardedWhole) {
+TEST(OpenTrackIoDecoder, AnIncompleteSampleIsDiscarded) {
   for (std::size_t missing = 0; missing < 3; ++missing) {
     PacketDecoder decoder(false, 37);
     std::vector<std::string> faults;
@@ -313,7 +313,7 @@ TEST(OpenTrackIoDecoder, ASampleIsNotLongerThanAllowed) {
   EXPECT_EQ(given(decoder, packet_of(full_sample().dump())).params().counter, 65535U);
 }
 
-TEST(OpenTrackIoDecoder, AMessageThatComesTwiceCountsOnce) {
+TEST(OpenTrackIoDecoder, ADuplicateMessageIsCountedOnce) {
   PacketDecoder decoder(false, 37);
   const std::string packet = packet_of(full_sample().dump(), Encoding::json, 9);
   EXPECT_THAT(given(decoder, packet, 1).samples, SizeIs(2));
@@ -323,7 +323,7 @@ TEST(OpenTrackIoDecoder, AMessageThatComesTwiceCountsOnce) {
   EXPECT_THAT(given(decoder, packet_of(full_sample().dump(), Encoding::json, 10)).samples, SizeIs(2));
 }
 
-TEST(OpenTrackIoDecoder, ASenderThatDoesNotCountIsHeard) {
+TEST(OpenTrackIoDecoder, ASenderThatDoesNotCountIsAccepted) {
   PacketDecoder decoder(false, 37);
   const std::string packet = packet_of(full_sample().dump());
   int heard = 0;

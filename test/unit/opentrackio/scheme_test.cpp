@@ -110,7 +110,7 @@ TEST(OpenTrackIo, UnicastBothEncodings) {
   }
 }
 
-TEST(OpenTrackIo, BothGroupsAreHeardAndAMessageOfBothCountsOnce) {
+TEST(OpenTrackIo, BothGroupsAreReceivedAndAMessageOfBothIsCountedOnce) {
   const test::ReservedPort port;
   const auto source = open_source("opentrackio://:" + port.text() + "?source=77&interface=127.0.0.1");
   EXPECT_THAT(source->name(), AllOf(HasSubstr("239.135.1.77"), HasSubstr("235.135.1.77")));

@@ -38,7 +38,7 @@ void expect_printed(double got, double printed, const std::string& what) {
   EXPECT_NEAR(got, printed, 1e-12 + 6e-6 * std::abs(printed)) << what;
 }
 
-TEST_P(WriteFile, moves_as_the_fields_program_does) {
+TEST_P(WriteFile, moves_like_the_existing_program) {
   const test::TemporaryDirectory directory;
   const std::string name = directory / "take.trk";
   std::vector<std::string> command{program("write_file"), name};
@@ -183,7 +183,7 @@ TEST(Net, write_net_to_read_net) {
   }
 }
 
-TEST(Net, without_parameters_it_says_so) {
+TEST(Net, without_parameters_it_reports_that) {
   const test::ReservedPort port;
   test::Program reader({program("read_net"), port.text()});
   EXPECT_EQ(reader.out_line(), "No new camera parameters.");

@@ -25,7 +25,7 @@ TEST(CameraInfoMessage, FieldByField) {
   EXPECT_THAT(info.k, ::testing::ElementsAre(1500, 0, 959.5, 0, 1400, 539.5, 0, 0, 1));
 }
 
-TEST(CameraInfoMessage, MeansTheFullImageWhateverPartOfItIsSent) {
+TEST(CameraInfoMessage, RefersToTheFullImageWhateverPartIsSent) {
   auto part = some_message();
   part.binning_x = part.binning_y = 2;
   part.roi.x_offset = 100;
@@ -35,7 +35,7 @@ TEST(CameraInfoMessage, MeansTheFullImageWhateverPartOfItIsSent) {
   EXPECT_TRUE(bridge::same_calibration(from_msg(part), from_msg(some_message())));
 }
 
-TEST(CameraInfoMessage, TakesThePlaceOfTheOneBefore) {
+TEST(CameraInfoMessage, ReplacesTheOneBefore) {
   bridge::CameraInfo info = from_msg(some_message());
   auto other = some_message();
   other.distortion_model = "rational_polynomial";

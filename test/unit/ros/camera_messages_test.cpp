@@ -54,7 +54,7 @@ TEST(CameraMessages, EncodersSayWhichOfThemAreKnown) {
   EXPECT_EQ(message.iris, 0);
 }
 
-TEST(CameraMessages, WhatIsNotInAnUpdateStays) {
+TEST(CameraMessages, MessagesThatAreNotInAnUpdateStay) {
   CameraMessages messages({"studio", "crane1", "crane1_optical"});
   messages.make(whole(today));
   bridge::CameraUpdate pose;
@@ -67,7 +67,7 @@ TEST(CameraMessages, WhatIsNotInAnUpdateStays) {
   EXPECT_EQ(messages.constants()->id, 3u);
 }
 
-TEST(CameraMessages, ConstantsOfNoKnownTimeHaveTheTimeZero) {
+TEST(CameraMessages, ConstantsOfUnknownTimeHaveStampZero) {
   CameraMessages messages({"studio", "crane1", "crane1_optical"});
   messages.make(whole(0));
   EXPECT_TRUE(messages.constants()->header.stamp.isZero());

@@ -20,7 +20,7 @@ TEST(Diagnostics, LevelsAreThoseOfTheMessage) {
   }
 }
 
-TEST(Diagnostics, TextsAndValuesInTheirOrder) {
+TEST(Diagnostics, TextsAndValuesInOrder) {
   bridge::Status status;
   status.message = "receiving";
   status.hardware_id = "udp port 7000";

@@ -54,7 +54,7 @@ void expect_point(const geometry_msgs::Point& point, double x, double y, double 
   EXPECT_NEAR(point.z, z, 1e-12);
 }
 
-TEST_F(Markers, StandInTheOpticalFrameAtTheTimeOfTheirSample) {
+TEST_F(Markers, AreInTheOpticalFrameAtTheTimeOfTheirSample) {
   const auto& array = markers.draw(some_info(), 2);
   EXPECT_EQ(actions(array), all_shown);
   for (const Marker& marker : array.markers) {
@@ -100,7 +100,7 @@ TEST_F(Markers, TheAxisEndsWhereTheFrustumDoesAndTheNameIsAbove) {
   EXPECT_LT(name.pose.position.y, 0) << "y is down";
 }
 
-TEST_F(Markers, ThePlaneInFocusIsAtItsDistanceAndOnlyWhereThereIsOne) {
+TEST_F(Markers, ThePlaneInFocusIsAtItsDistanceIfThereIsOne) {
   const Marker& focus = named(markers.draw(some_info(), 2.5), "crane1/focus");
   EXPECT_EQ(int{focus.type}, int{Marker::TRIANGLE_LIST});
   ASSERT_FALSE(focus.points.empty());
@@ -148,7 +148,7 @@ TEST_F(Markers, OfALensThatCannotBeDrawnAreRemovedWithTheReason) {
   EXPECT_EQ(markers.statistics().not_drawn, 3u);
 }
 
-TEST_F(Markers, ThatWereRemovedComeBackWhole) {
+TEST_F(Markers, ThatWereRemovedAreAllAddedAgain) {
   const auto shown = markers.draw(some_info(), 2);
   const auto& removed = markers.remove(::ros::Time(20, 0));
   EXPECT_EQ(actions(removed), all_removed);

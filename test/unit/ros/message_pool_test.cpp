@@ -12,7 +12,7 @@ namespace {
 using Params = trk_bridge::CameraParams;
 using Pool = MessagePool<Params>;
 
-TEST(MessagePool, WhatASubscriberKeepsIsNotWrittenAgain) {
+TEST(MessagePool, AMessageThatASubscriberKeepsIsNotReused) {
   Pool pool(in_frame<Params>("studio"));
   std::vector<boost::shared_ptr<const Params>> kept;
   for (std::uint64_t counter = 0; counter < 5 * Pool::size; ++counter) {
@@ -25,14 +25,14 @@ TEST(MessagePool, WhatASubscriberKeepsIsNotWrittenAgain) {
   }
 }
 
-TEST(MessagePool, WhatNobodyKeepsIsUsedAgain) {
+TEST(MessagePool, AMessageThatNoSubscriberKeepsIsReused) {
   Pool pool{Params()};
   std::set<const Params*> different;
   for (std::size_t i = 0; i < 10 * Pool::size; ++i) different.insert(&pool.renew());
   EXPECT_EQ(different.size(), Pool::size);
 }
 
-TEST(MessagePool, OneThatIsKeptForLongCostsNoOther) {
+TEST(MessagePool, AMessageThatIsKeptForLongDoesNotAffectOthers) {
   Pool pool{Params()};
   pool.renew().counter = 7;
   const boost::shared_ptr<const Params> kept = pool.current();

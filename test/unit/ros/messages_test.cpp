@@ -38,7 +38,7 @@ TEST(Messages, EulerParamsFieldByField) {
   EXPECT_THAT(m.matrix, ::testing::Each(0)) << "the format does not select it";
 }
 
-TEST(Messages, MatrixParamsColumnAfterColumn) {
+TEST(Messages, MatrixParamsAreColumnMajor) {
   trk_bridge::CameraParams m;
   to_msg(numbered(wire::camera_y_up), m);
   EXPECT_EQ(m.x, 0);

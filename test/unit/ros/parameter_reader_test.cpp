@@ -20,7 +20,7 @@ tl::expected<std::size_t, std::string> parse_length(const std::string& text) {
   return text.size();
 }
 
-TEST(Ranges, SayWhatTheyAllow) {
+TEST(Ranges, DescribeWhatTheyAllow) {
   EXPECT_EQ((Range{0, 60, "seconds"}).text(), "0 to 60 seconds");
   EXPECT_EQ((Range{1, 100000}).text(), "1 to 100000");
   EXPECT_EQ(at_least(0).text(), "0 or more");
@@ -30,7 +30,7 @@ TEST(Ranges, SayWhatTheyAllow) {
   EXPECT_EQ(Range{}.text(), "finite");
 }
 
-TEST(Ranges, HaveTheirEndsAndNothingInfinite) {
+TEST(Ranges, IncludeTheirEndsAndNothingInfinite) {
   const Range range{0, 60, "seconds"};
   EXPECT_TRUE(range.contains(0) && range.contains(60));
   EXPECT_FALSE(range.contains(-1e-9) || range.contains(60.001));
@@ -38,7 +38,7 @@ TEST(Ranges, HaveTheirEndsAndNothingInfinite) {
   for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL}) EXPECT_FALSE(Range{}.contains(value)) << value;
 }
 
-TEST(ParameterReader, WhatIsNotGivenOrFaultyKeepsItsDefault) {
+TEST(ParameterReader, MissingAndFaultyValuesKeepTheirDefault) {
   XmlRpcValue tree;
   tree["number"] = "one";
   tree["integer"] = 11;
@@ -76,7 +76,7 @@ TEST(ParameterReader, WhatIsNotGivenOrFaultyKeepsItsDefault) {
             "~list = '': must not be empty");
 }
 
-TEST(ParameterReader, WhatIsSoundIsKeptParsed) {
+TEST(ParameterReader, ValidTextsAreParsed) {
   XmlRpcValue tree;
   tree["number"] = 7;
   tree["flag"] = true;
@@ -102,7 +102,7 @@ TEST(ParameterReader, WhatIsSoundIsKeptParsed) {
   EXPECT_EQ(end_of(reader), "no error");
 }
 
-TEST(ParameterReader, AMapInheritsSoundnessAndAddsItsFaults) {
+TEST(ParameterReader, AMapInheritsValidityAndAddsItsFaults) {
   XmlRpcValue tree;
   tree["rate"] = "fast";
   tree["slow"]["rate"] = 1;
@@ -125,7 +125,7 @@ TEST(ParameterReader, AMapInheritsSoundnessAndAddsItsFaults) {
             "~other/rat = 1: unknown parameter, nearest is rate; known are rate");
 }
 
-TEST(ParameterReader, TheRemedyDeletesWhatIsOnTheMasterAndRefused) {
+TEST(ParameterReader, TheRemedyDeletesRefusedParametersOnTheMaster) {
   XmlRpcValue tree;
   tree["rate"] = "fast";
   tree["cameras"]["one"]["rat"] = 1;

@@ -126,7 +126,7 @@ TEST(ReadOutgoing, EveryKindOfFaultIsShownAtOnce) {
                                    HasSubstr("~camera_frame = 'studio': must differ")));
 }
 
-TEST(ReadOutgoing, ARuleIsNotJudgedOnFaultyInput) {
+TEST(ReadOutgoing, ARuleIsNotCheckedOnFaultyInput) {
   auto tree = tree_with_sink();
   tree["input"] = "tff";
   tree["blank_left"] = 3;
@@ -158,7 +158,7 @@ TEST(ReadOutgoing, Defaults) {
   EXPECT_TRUE(p.form.sends_id);
 }
 
-TEST(ReadOutgoing, OneSinkMayBeATextAndSeveralAreAList) {
+TEST(ReadOutgoing, OneSinkIsATextAndSeveralAreAList) {
   XmlRpcValue tree;
   tree["sinks"] = "shm:7";
   EXPECT_THAT(read_ros_to_trk_parameters(tree, "c").sinks, ElementsAre(has_url("shm:7")));
@@ -197,7 +197,7 @@ TEST(ReadOutgoing, EverythingOfTf) {
   EXPECT_TRUE(wire::has(p.form.format.value(), wire::shift_in_pixels | wire::vertical | wire::camera_y_up));
 }
 
-TEST(ReadOutgoing, TfIsPacedAtARateOrSentAsItComes) {
+TEST(ReadOutgoing, TfIsPacedAtARateOrSentOnArrival) {
   auto tree = of_tf();
   EXPECT_EQ(read_ros_to_trk_parameters(tree, "c").rate, 50);
   EXPECT_TRUE(read_ros_to_trk_parameters(tree, "c").pace);
@@ -219,7 +219,7 @@ TEST(ReadOutgoing, TfIsPacedAtARateOrSentAsItComes) {
   EXPECT_TRUE(read_ros_to_trk_parameters(params, "c").pace);
 }
 
-TEST(ReadOutgoing, ADelayIsOneNumberOrOneAPart) {
+TEST(ReadOutgoing, ADelayIsOneNumberOrOnePerPart) {
   using transport::Delay;
   auto tree = tree_with_sink();
   tree["delay"] = 0.04;
@@ -242,7 +242,7 @@ TEST(ReadOutgoing, ADelayIsOneNumberOrOneAPart) {
                                       HasSubstr("~lead = 0.05: must be 0 to 0.04 seconds")));
 }
 
-TEST(ReadOutgoing, ASinkMayHaveAFormOfItsOwn) {
+TEST(ReadOutgoing, ASinkMayHaveItsOwnForm) {
   XmlRpcValue tree;
   tree["sinks"][0] = "udp://127.0.0.1:7000?preset=unreal_trackmen";
   tree["sinks"][1] = "shm:7?id=3";
@@ -256,7 +256,7 @@ TEST(ReadOutgoing, ASinkMayHaveAFormOfItsOwn) {
   EXPECT_EQ(other.id, 3u);
 }
 
-TEST(ReadOutgoing, TheReceiverThatTakesNoId) {
+TEST(ReadOutgoing, TheReceiverWithoutIds) {
   auto tree = tree_with_sink();
   tree["preset"] = "unreal_trackmen";
   EXPECT_FALSE(read_ros_to_trk_parameters(tree, "c").form.sends_id);
@@ -272,7 +272,7 @@ TEST(ReadOutgoing, WhatBelongsToTheOtherInputIsRefused) {
   EXPECT_THAT(message_of(tree), HasSubstr("~constants: belongs to input params"));
 }
 
-TEST(ReadOutgoing, TellsEveryUnknownKeyAndWrongType) {
+TEST(ReadOutgoing, ReportsEveryUnknownKeyAndWrongType) {
   auto tree = tree_with_sink();
   tree["sink"] = "shm:7";
   tree["id"] = -1;
@@ -281,7 +281,7 @@ TEST(ReadOutgoing, TellsEveryUnknownKeyAndWrongType) {
                                       HasSubstr("~id = -1"), HasSubstr("~rate = 'fast': must be 1 to 1000 Hz")));
 }
 
-TEST(ReadOutgoing, APresetOfASchemeIsForItsSinksAlone) {
+TEST(ReadOutgoing, APresetOfASchemeIsOnlyForItsSinks) {
   XmlRpcValue tree;
   tree["sinks"][0] = "freed://127.0.0.1:40000";
   EXPECT_THAT(message_of(tree), HasSubstr("option lens is missing")) << "the generic profile has counts";

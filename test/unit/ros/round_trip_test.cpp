@@ -168,7 +168,7 @@ TEST(RoundTrip, EveryWorkedCaseThroughTfAndCameraInfo) {
   }
 }
 
-TEST(RoundTrip, AsReceivedIsTheVerySameRecord) {
+TEST(RoundTrip, AsReceivedIsExactlyTheSameRecord) {
   for (const auto& c : worked()) {
     const Incoming incoming(c, std::nullopt);
     const auto made = sent_again(c, incoming);

@@ -117,7 +117,7 @@ const Wrong wrong_ones[] = {
 INSTANTIATE_TEST_SUITE_P(One, ReadWrong, ::testing::ValuesIn(wrong_ones),
                          [](const auto& test) { return test.param.name; });
 
-TEST(Read, ACameraIsCalledSoThatTopicsAndFramesCanBe) {
+TEST(Read, ACameraNameMustBeValidForTopicsAndFrames) {
   EXPECT_THAT(lines_of(tree_with_source(), "1st"),
               ElementsAre(AllOf(HasSubstr("camera name '1st'"), HasSubstr("begin with a letter"))));
   auto tree = two_cameras();
@@ -125,7 +125,7 @@ TEST(Read, ACameraIsCalledSoThatTopicsAndFramesCanBe) {
   EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("camera name 'on the left'")));
 }
 
-TEST(Read, CamerasOnOneSourceMustSayDifferentIds) {
+TEST(Read, CamerasOnOneSourceMustHaveDifferentIds) {
   auto tree = two_cameras();
   tree["cameras"]["right"]["id"] = 1;
   EXPECT_THAT(lines_of(tree), ElementsAre(AllOf(HasSubstr("~cameras/right/id = 1"), HasSubstr("left's"))));
@@ -173,7 +173,7 @@ TEST(Read, EveryKindOfFaultIsShownAtOnce) {
                                    HasSubstr("~cameras/right/id = 1: is camera left's, too")));
 }
 
-TEST(Read, ARuleIsNotJudgedOnFaultyInput) {
+TEST(Read, ARuleIsNotCheckedOnFaultyInput) {
   auto tree = tree_with_source();
   tree["publish_markers"] = true;
   tree["publish_camera_info"] = "no";
@@ -195,7 +195,7 @@ TEST(Read, ARuleIsNotJudgedOnFaultyInput) {
   EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~cameras/right/source = 'udp://'")));
 }
 
-TEST(Read, WhatIsWrongForAllCamerasIsShownOnce) {
+TEST(Read, FaultsOfAllCamerasAreShownOnce) {
   auto tree = two_cameras();
   tree["source"] = "udp://";
   tree["studio_frame"] = "/left";
@@ -288,7 +288,7 @@ TEST(Read, FormatsAreKeptAsMasks) {
   EXPECT_FALSE(read_trk_to_ros_parameters(tree, "c").cameras[0].options.format);
 }
 
-TEST(Read, MarkersOfAllCamerasButOne) {
+TEST(Read, MarkersOfAllCamerasExceptOne) {
   auto tree = tree_with_source();
   tree["publish_markers"] = true;
   tree["marker_far"] = 10;
@@ -357,11 +357,11 @@ TEST(Read, WithCamerasIdAndFramesBelongToEach) {
   EXPECT_THAT(message_of(tree), HasSubstr("~camera_frame: belongs to each camera if cameras is set"));
 }
 
-TEST(Read, NoParametersAtAllMissTheSource) {
+TEST(Read, WithoutParametersTheSourceIsMissing) {
   EXPECT_THAT(message_of(XmlRpcValue()), HasSubstr("~source = '': must be given"));
 }
 
-TEST(Read, ATreeThatIsNoMapIsRefused) { EXPECT_THAT(message_of(XmlRpcValue(7)), HasSubstr("must be a map")); }
+TEST(Read, ATreeThatIsNotAMapIsRefused) { EXPECT_THAT(message_of(XmlRpcValue(7)), HasSubstr("must be a map")); }
 
 }  // namespace
 }  // namespace trk_bridge::ros1

@@ -36,7 +36,7 @@ class CameraStatusTest : public testing::Test {
   const TopicState params{"/a/params", "", 9, ros::Time(999.9), true};
 };
 
-TEST_F(CameraStatusTest, TopicsTellWhetherAnythingComes) {
+TEST_F(CameraStatusTest, TopicsShowWhetherMessagesArrive) {
   status.camera_info(none);
   EXPECT_EQ(line("Camera Info"), "Warn: no topic selected");
   status.camera_info({"a b", "Character is not valid", 0, {}, false});
@@ -51,7 +51,7 @@ TEST_F(CameraStatusTest, TopicsTellWhetherAnythingComes) {
   EXPECT_THAT(line("Camera Info"), AllOf(HasSubstr("Warn: "), HasSubstr("12.0 s"), HasSubstr("since 990")));
 }
 
-TEST_F(CameraStatusTest, ParamsMayBeLeftOut) {
+TEST_F(CameraStatusTest, ParamsAreOptional) {
   status.camera_params(none, "");
   EXPECT_EQ(line("Camera Params"), "");
   status.camera_params(params, "");
@@ -62,7 +62,7 @@ TEST_F(CameraStatusTest, ParamsMayBeLeftOut) {
   EXPECT_EQ(line("Camera Params"), "");
 }
 
-TEST_F(CameraStatusTest, ConstantsAreUnknownWhenParamsComeAlone) {
+TEST_F(CameraStatusTest, ConstantsAreUnknownIfOnlyParamsArrive) {
   status.constants(silent, params);
   EXPECT_THAT(line("Constants"), HasSubstr("Warn: unknown"));
   status.constants(good, params);
@@ -75,14 +75,14 @@ TEST_F(CameraStatusTest, ConstantsAreUnknownWhenParamsComeAlone) {
   EXPECT_EQ(line("Constants"), "") << "there may be CameraInfo that is not asked for";
 }
 
-TEST_F(CameraStatusTest, TransformTellsTfsReason) {
+TEST_F(CameraStatusTest, TransformShowsTheReasonOfTf) {
   status.transform("Frame [x] does not exist");
   EXPECT_EQ(line("Transform"), "Error: Frame [x] does not exist");
   status.transform("");
   EXPECT_THAT(line("Transform"), HasSubstr("Ok: "));
 }
 
-TEST_F(CameraStatusTest, LensTellsWhatItIsOrWhyItIsNone) {
+TEST_F(CameraStatusTest, LensIsDescribedOrItsFaultShown) {
   sensor_msgs::CameraInfo info;
   info.width = info.height = 100;
   LensView lens;
@@ -106,7 +106,7 @@ TEST_F(CameraStatusTest, FrustumMustHaveItsDepthsInOrder) {
   EXPECT_EQ(line("Frustum"), "");
 }
 
-TEST_F(CameraStatusTest, FocusPlaneTellsWhyItIsNotDrawn) {
+TEST_F(CameraStatusTest, FocusPlaneShowsWhyItIsNotDrawn) {
   status.focus_plane(3.5);
   EXPECT_EQ(line("Focus Plane"), "Ok: 3.5 m");
   for (const double beyond : {0.0, -1.0, 1e9, std::nan("")}) {
@@ -118,7 +118,7 @@ TEST_F(CameraStatusTest, FocusPlaneTellsWhyItIsNotDrawn) {
   EXPECT_EQ(line("Focus Plane"), "");
 }
 
-TEST_F(CameraStatusTest, NothingIsSaidOfWhatIsNotDrawn) {
+TEST_F(CameraStatusTest, PartsThatAreNotDrawnHaveNoLine) {
   status.transform("gone");
   status.frustum(true, 3, 2);
   status.focus_plane(3);

@@ -29,7 +29,7 @@ TEST(LensView, OfAPinholeHasItsAngles) {
   EXPECT_EQ(view.text(), "fx 960, fy 960, image 1920 x 1080");
 }
 
-TEST(LensView, ChangesWithTheLensAlone) {
+TEST(LensView, ChangesOnlyWithTheLens) {
   LensView view;
   auto info = pinhole();
   EXPECT_TRUE(view.look_through(info));
@@ -44,7 +44,7 @@ TEST(LensView, ChangesWithTheLensAlone) {
   EXPECT_TRUE(view.look_through(info));
 }
 
-TEST(LensView, ThatIsNoneSaysWhyAndDrawsNothing) {
+TEST(LensView, ThatIsInvalidGivesTheReasonAndDrawsNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, nan, infinity, -1500.0, 1e-300, 1e300}) {
@@ -67,7 +67,7 @@ TEST(LensView, ThatIsNoneSaysWhyAndDrawsNothing) {
   EXPECT_THAT(view.fault(), HasSubstr("fx 0, fy 960"));
 }
 
-TEST(LensView, OfAKindThatIsNotKnownSaysSo) {
+TEST(LensView, OfAnUnknownModelIsReported) {
   LensView view;
   auto info = pinhole();
   info.distortion_model = "equidistant";

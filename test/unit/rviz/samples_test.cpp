@@ -35,7 +35,7 @@ TEST(Samples, NewestUsableIsChosenWhateverTheOrderOfArrival) {
   EXPECT_EQ(samples.newest([](const CameraInfo&) { return false; }), nullptr);
 }
 
-TEST(Samples, NewerOnesAreAskedForFirst) {
+TEST(Samples, NewerOnesAreTriedFirst) {
   InfoSamples samples;
   for (const double time : {10.0, 10.2, 10.1}) samples.add(info(time));
   std::vector<double> asked;
@@ -61,7 +61,7 @@ TEST(Samples, TwoAreKeptOfASlowCamera) {
             20);
 }
 
-TEST(Samples, NumberIsBoundedHoweverFastTheyCome) {
+TEST(Samples, TheirNumberIsLimited) {
   InfoSamples samples;
   for (int i = 0; i < 10000; ++i) samples.add(info(100 + i * 1e-5));
   EXPECT_EQ(samples.size(), InfoSamples::most);
@@ -88,7 +88,7 @@ TEST(Samples, EqualStampsReplaceEachOther) {
   EXPECT_EQ(samples.belonging_to(ros::Time(10.0))->width, 3u);
 }
 
-TEST(Samples, ZeroStampMeansNowAndIsAlone) {
+TEST(Samples, ZeroStampMeansNowAndReplacesAll) {
   InfoSamples samples;
   samples.add(info(10.0, 1));
   EXPECT_EQ(samples.add(info(0.0, 2)), Added::in_time);
@@ -100,7 +100,7 @@ TEST(Samples, ZeroStampMeansNowAndIsAlone) {
   EXPECT_EQ(samples.newest()->width, 4u);
 }
 
-TEST(Samples, AbsurdStampsDoNoHarmAndAreLeftBehind) {
+TEST(Samples, AbsurdStampsDoNoHarmAndAreReplaced) {
   ros::Time beyond;  // as it may come over the wire, not normalised
   beyond.sec = beyond.nsec = std::numeric_limits<std::uint32_t>::max();
   ros::Time early;
@@ -116,7 +116,7 @@ TEST(Samples, AbsurdStampsDoNoHarmAndAreLeftBehind) {
   EXPECT_LT(seconds_between(beyond, early), -4.2e9);
 }
 
-TEST(Samples, BelongingIsTheSameStampElseTheNewestBeforeElseTheFirstAfter) {
+TEST(Samples, BelongingToIsTheSameStampElseTheNewestBeforeElseTheFirstAfter) {
   InfoSamples samples;
   EXPECT_EQ(samples.belonging_to(ros::Time(1)), nullptr);
   for (const double time : {10.0, 10.2, 10.4}) samples.add(info(time));

@@ -19,7 +19,7 @@ class StatusLinesTest : public testing::Test {
                     [this](const std::string& name) { shown.push_back("no " + name); }};
 };
 
-TEST_F(StatusLinesTest, SameIsToldOnce) {
+TEST_F(StatusLinesTest, TheSameTextIsShownOnce) {
   for (int i = 0; i < 100; ++i) lines.set(StatusLevel::ok, "Lens", "good", i);
   EXPECT_THAT(shown, ElementsAre("Lens0 good"));
 }
@@ -30,13 +30,13 @@ TEST_F(StatusLinesTest, TextsDoNotFlicker) {
   EXPECT_LE(shown.size(), 5u);
 }
 
-TEST_F(StatusLinesTest, LastTextIsToldInTheEnd) {
+TEST_F(StatusLinesTest, TheLastTextIsShownInTheEnd) {
   lines.set(StatusLevel::ok, "Age", "1", 0);
   for (int i = 1; i <= 30; ++i) lines.set(StatusLevel::ok, "Age", "2", i / 30.0);
   EXPECT_THAT(shown, ElementsAre("Age0 1", "Age0 2"));
 }
 
-TEST_F(StatusLinesTest, LevelsAreToldAtOnce) {
+TEST_F(StatusLinesTest, LevelsAreShownAtOnce) {
   lines.set(StatusLevel::ok, "Lens", "good", 0);
   lines.set(StatusLevel::error, "Lens", "bad", 0.01);
   EXPECT_THAT(shown, ElementsAre("Lens0 good", "Lens2 bad"));

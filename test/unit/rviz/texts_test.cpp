@@ -21,7 +21,7 @@ TEST(Values, AreTwoLines) {
             "f 1500 px   fov 65.2\u00b0 x 39.6\u00b0   #18446744073709551615");
 }
 
-TEST(Values, TellMillimetresWhereTheyAreKnown) {
+TEST(Values, ShowMillimetresIfTheyAreKnown) {
   Values values;
   values.focal_length = 1500;
   values.image_distance = 7.5;
@@ -45,7 +45,7 @@ TEST(NameOfTopic, IsItsNamespace) {
   EXPECT_EQ(name_of_topic(""), "");
 }
 
-TEST(Age, IsToldOfTheStamp) {
+TEST(Age, IsThatOfTheStamp) {
   const ros::Time now(1000), came(999.5);
   const auto fresh = age_of(ros::Time(999.98), came, now);
   EXPECT_TRUE(fresh.fresh);
@@ -66,7 +66,7 @@ TEST(Age, WithoutAStampIsThatOfTheArrival) {
   EXPECT_THAT(old.text, HasSubstr("10.00 s"));
 }
 
-TEST(Silence, TellsTopicAndSinceWhen) {
+TEST(Silence, NamesTopicAndStart) {
   EXPECT_EQ(silence_text("/a/camera_info", ros::Time(990.25), ros::Time(1000)),
             "no messages on /a/camera_info for 9.8 s, since 990.250");
 }

@@ -33,7 +33,7 @@ TEST(Trail, LinesJoinTheNeighbours) {
   EXPECT_THAT(lines_of(trail), testing::ElementsAre(along(0), along(1), along(1), along(2)));
 }
 
-TEST(Trail, OfACameraAtRestGrowsNotAndEndsWhereItIs) {
+TEST(Trail, OfACameraAtRestDoesNotGrowAndEndsAtTheCamera) {
   Trail trail;
   for (int i = 0; i < 1000; ++i) trail.add(ros::Time(100 + 0.001 * i), "camera", along(i * 1e-7), 5);
   EXPECT_LE(trail.points().size(), 3u);
@@ -50,7 +50,7 @@ TEST(Trail, IsBounded) {
   EXPECT_EQ(trail.points().back().position.x(), 9999);
 }
 
-TEST(Trail, DoesNotGoBackInTimeNorOutOfSpace) {
+TEST(Trail, IgnoresOlderTimesAndPositionsThatAreNotFinite) {
   Trail trail;
   trail.add(ros::Time(10), "camera", along(0), 5);
   trail.add(ros::Time(11), "camera", along(1), 5);
@@ -62,7 +62,7 @@ TEST(Trail, DoesNotGoBackInTimeNorOutOfSpace) {
   EXPECT_EQ(trail.points().back().position.x(), 1);
 }
 
-TEST(Trail, StartsAgainInAnotherFrame) {
+TEST(Trail, StartsAgainForAnotherFrame) {
   Trail trail;
   trail.add(ros::Time(10), "one", along(0), 5);
   trail.add(ros::Time(11), "one", along(1), 5);
@@ -70,7 +70,7 @@ TEST(Trail, StartsAgainInAnotherFrame) {
   EXPECT_EQ(trail.points().size(), 1u);
 }
 
-TEST(Trail, MovesToAnotherFixedFrameAsFarAsItIsKnownThere) {
+TEST(Trail, MovesToAnotherFixedFrameWhereItIsKnown) {
   Trail trail;
   for (int i = 0; i < 4; ++i) trail.add(ros::Time(10 + i), "camera", along(i), 60);
   trail.move([](const std::string& frame, const ros::Time& time) -> std::optional<Eigen::Vector3d> {

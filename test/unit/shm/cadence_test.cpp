@@ -87,7 +87,7 @@ std::vector<std::int64_t> writes(double rate, double jitter, Keeps keeps, double
 
 class EvenWriter : public ::testing::TestWithParam<std::tuple<double, Keeps>> {};
 
-TEST_P(EvenWriter, is_seen_at_once_for_little) {
+TEST_P(EvenWriter, is_read_at_once_at_low_cost) {
   const auto [rate, keeps] = GetParam();
   for (const double jitter : {0 * us, 10 * us, 30 * us}) {
     auto met = read(writes(rate, jitter, keeps));
@@ -98,7 +98,7 @@ TEST_P(EvenWriter, is_seen_at_once_for_little) {
   }
 }
 
-TEST_P(EvenWriter, that_is_held_up_for_a_scheduling_millisecond_is_seen_later_and_not_lost) {
+TEST_P(EvenWriter, that_is_delayed_by_a_scheduling_millisecond_is_read_later_and_not_lost) {
   const auto [rate, keeps] = GetParam();
   for (const double jitter : {300 * us, 1 * ms}) {
     auto met = read(writes(rate, jitter, keeps));
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Rates, EvenWriter,
                          ::testing::Combine(::testing::Values(25, 50, 59.94, 100, 120),
                                             ::testing::Values(Keeps::clock, Keeps::intervals)));
 
-TEST(Cadence, learns_period_and_jitter) {
+TEST(Cadence, measures_period_and_jitter) {
   Cadence even(0), uneven(0);
   const auto follow = [](Cadence& cadence, const std::vector<std::int64_t>& written) {
     std::size_t seen = 0;
@@ -135,7 +135,7 @@ TEST(Cadence, learns_period_and_jitter) {
   EXPECT_LT(uneven.deviation(), 1 * ms);
 }
 
-TEST(Cadence, a_thousand_sets_a_second_are_not_replaced_unseen) {
+TEST(Cadence, a_thousand_sets_a_second_are_all_read) {
   auto met = read(writes(1000, 0, Keeps::clock));
   EXPECT_EQ(met.replaced, 0);
   EXPECT_LE(met.quantile(1), 1.2 * ms);
@@ -151,7 +151,7 @@ TEST(Cadence, a_single_set_that_is_late_does_not_make_the_next_ones_late) {
   EXPECT_EQ(met.replaced, 0);
 }
 
-TEST(Cadence, another_rate_is_learned_within_a_few_sets) {
+TEST(Cadence, another_rate_is_measured_within_a_few_sets) {
   std::vector<std::int64_t> written;
   double at = 1e12;
   constexpr int changes = 20;
@@ -176,14 +176,14 @@ TEST(Cadence, after_a_pause_the_first_set_is_late_by_a_small_part_of_it) {
   }
 }
 
-TEST(Cadence, a_writer_that_stops_is_looked_for_ten_times_a_second) {
+TEST(Cadence, a_writer_that_stopped_is_polled_ten_times_a_second) {
   const auto written = std::vector<std::int64_t>{1'000'000'000'000, 1'060'000'000'000};
   const auto met = read(written, 10 * s);
   EXPECT_LE(met.looks, 10 * met.seconds + 30) << "with those after the second set";
   EXPECT_GE(met.looks, 9 * met.seconds);
 }
 
-TEST(Cadence, whatever_the_rate_is_there_are_looks) {
+TEST(Cadence, at_any_rate_there_is_polling) {
   for (const double rate : {0.1, 1.0, 5.0, 5000.0, 50000.0}) {
     const auto met = read(writes(rate, 0, Keeps::clock, rate < 1 ? 100 : 10));
     EXPECT_GE(met.looks, 9 * met.seconds) << rate;
@@ -191,7 +191,7 @@ TEST(Cadence, whatever_the_rate_is_there_are_looks) {
   }
 }
 
-TEST(Cadence, two_writers_are_both_seen) {
+TEST(Cadence, two_writers_are_both_read) {
   std::vector<std::int64_t> written;
   for (std::int64_t i = 0; i < 1000; ++i) {
     written.push_back(1'000'000'000'000 + i * 20'000'000);

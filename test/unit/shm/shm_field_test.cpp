@@ -98,7 +98,7 @@ class Field : public ::testing::Test {
   Reception into;
 };
 
-TEST_F(Field, a_new_segment_is_one_that_every_program_of_today_can_open) {
+TEST_F(Field, a_new_segment_can_be_opened_by_every_current_program) {
   const auto sink = open_sink(url());
   FieldProgram today(slot, of(544)), of_1998(slot, of(528));
   EXPECT_TRUE(today.open());
@@ -106,7 +106,7 @@ TEST_F(Field, a_new_segment_is_one_that_every_program_of_today_can_open) {
   EXPECT_EQ(today.id(), slot.segment());
 }
 
-TEST_F(Field, a_reader_alone_with_a_segment_lets_a_program_of_a_larger_one_start) {
+TEST_F(Field, a_reader_alone_lets_a_program_with_a_larger_segment_start) {
   FieldProgram of_1998(slot, of(528));
   ASSERT_TRUE(of_1998.open());
   const auto source = open_source(url());
@@ -139,7 +139,7 @@ TEST_F(Field, a_reader_alone_leaves_no_segment_and_no_file) {
   EXPECT_EQ(source->statistics().waiting_for, "slot " + std::to_string(slot.number()) + ": no segment");
 }
 
-TEST_F(Field, a_reader_stays_with_a_silent_program_and_with_one_that_comes_for_a_moment) {
+TEST_F(Field, a_reader_stays_attached_beside_a_silent_or_a_short_lived_program) {
   FieldProgram silent(slot, of(544));
   ASSERT_TRUE(silent.open());
   const auto source = open_source(url());
@@ -172,7 +172,7 @@ TEST_F(Field, a_writer_alone_keeps_its_segment) {
   EXPECT_EQ(slot.segment(), id);
 }
 
-TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_let_go_of_and_read_again) {
+TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_detached_and_read_again) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root can be two users";
   FieldProgram tracker(slot, of(544));
   ASSERT_TRUE(tracker.open());
@@ -219,7 +219,7 @@ TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_let_go_of_and_read_aga
   EXPECT_EQ(WEXITSTATUS(status), good);
 }
 
-TEST_F(Field, connected_is_set_right_by_everybody_of_ours_who_attaches) {
+TEST_F(Field, connected_is_corrected_by_every_program_of_ours_that_attaches) {
   FieldProgram tracker(slot, of(544));
   ASSERT_TRUE(tracker.open());
   tracker.connected() = 20;  // the dead
@@ -234,7 +234,7 @@ TEST_F(Field, connected_is_set_right_by_everybody_of_ours_who_attaches) {
   EXPECT_EQ(tracker.connected(), 4);
 }
 
-TEST_F(Field, a_tracker_is_the_last_one_again_though_others_died) {
+TEST_F(Field, a_tracker_is_the_last_one_although_others_crashed) {
   FieldProgram tracker(slot, of(544));
   ASSERT_TRUE(tracker.open());
   tracker.connected() += 3;

@@ -50,7 +50,7 @@ class Foreign : public ::testing::TestWithParam<std::size_t> {
   std::string url = "shm:" + std::to_string(slot.number());
 };
 
-TEST_P(Foreign, is_undisturbed_and_named) {
+TEST_P(Foreign, is_unchanged_and_named) {
   const std::size_t size = GetParam();
   const int id = slot.make_segment(size);
   {
@@ -94,7 +94,7 @@ TEST_F(Confused, an_eight_byte_magic_with_garbage_above_is_foreign) {
   ::shmdt(memory);
 }
 
-TEST_F(Confused, a_segment_that_is_being_made_is_waited_for_and_left_alone) {
+TEST_F(Confused, a_segment_that_is_being_created_is_waited_for_and_unchanged) {
   const int id = slot.make_segment(528);
   const auto source = open_source(url);
   Reception into;
@@ -110,7 +110,7 @@ TEST_F(Confused, a_segment_that_is_being_made_is_waited_for_and_left_alone) {
   EXPECT_EQ(contents(id, 528), std::string(528, '\0'));
 }
 
-TEST_F(Confused, two_slots_with_one_key_are_told_apart_from_one) {
+TEST_F(Confused, two_slots_with_one_key_are_detected) {
   test::FreeSlot other;
   const auto sink = open_sink("shm:" + std::to_string(other.number()));
   // A hard link has the inode of its original, as two inodes that agree in their lower 16 bits have one key.
@@ -131,7 +131,7 @@ TEST_F(Confused, a_directory_in_the_place_of_the_file_is_refused) {
   ::rmdir(slot.path().c_str());
 }
 
-TEST_F(Confused, a_sink_whose_slot_became_foreign_says_that_there_is_no_segment_for_it) {
+TEST_F(Confused, a_sink_whose_slot_became_foreign_reports_no_segment) {
   const auto sink = open_sink(url);
   slot.remove();
   const int id = slot.make_segment(300);
@@ -144,7 +144,7 @@ TEST_F(Confused, a_sink_whose_slot_became_foreign_says_that_there_is_no_segment_
   EXPECT_TRUE(sink->write(wire::CameraParams{})) << "every write looks again";
 }
 
-TEST_F(Confused, a_sink_says_why_the_system_gives_it_no_segment) {
+TEST_F(Confused, a_sink_reports_why_the_system_gives_it_no_segment) {
   const auto sink = open_sink(url);
   slot.remove();
   rlimit before{};

@@ -98,7 +98,7 @@ class Hostile : public ::testing::Test {
 // Far more than a look takes, and far less than the 200 ms that a writer may take to make a segment.
 constexpr auto no_waiting = 50ms;
 
-TEST_F(Hostile, a_segment_that_nobody_finishes_holds_no_writer) {
+TEST_F(Hostile, a_segment_that_is_never_finished_does_not_block_a_writer) {
   slot.make_segment(544);
   const auto sink = endpoints::parse_sink(url())->open();
   EXPECT_LT(least_time_of([&] { EXPECT_FALSE(sink->write(params(1))); }), no_waiting);
@@ -107,7 +107,7 @@ TEST_F(Hostile, a_segment_that_nobody_finishes_holds_no_writer) {
   EXPECT_TRUE(sink->write(params(2))) << "every write looks again";
 }
 
-TEST_F(Hostile, a_slot_that_changes_its_kind_all_the_time_holds_nobody) {
+TEST_F(Hostile, a_slot_that_changes_all_the_time_blocks_nobody) {
   const auto sink = open_sink(url());
   const auto source = open_source(url());
   std::mt19937 random(1);
@@ -134,7 +134,7 @@ TEST_F(Hostile, a_slot_that_changes_its_kind_all_the_time_holds_nobody) {
   expect_stoppable(*source);
 }
 
-TEST_F(Hostile, a_segment_that_changes_faster_than_it_can_be_copied_is_reported_and_not_looked_at_all_the_time) {
+TEST_F(Hostile, a_segment_that_changes_faster_than_it_can_be_copied_is_reported_and_polled_slowly) {
   const auto writer = Segment::attach_or_create(slot.number(), *layout_of_size(544), 0666);
   ASSERT_TRUE(writer);
   const auto source = open_source(url());

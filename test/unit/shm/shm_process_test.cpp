@@ -161,7 +161,7 @@ TEST(ShmProcesses, eight_readers_of_one_fast_writer_never_see_a_torn_record) {
   EXPECT_GE(written, least_writes);
 }
 
-TEST(ShmProcesses, writers_that_are_killed_leave_whole_records_and_a_usable_slot) {
+TEST(ShmProcesses, killed_writers_leave_complete_records_and_a_usable_slot) {
   test::FreeSlot slot;
   const auto source = open_source(url_of(slot));
   Reception into;
@@ -189,7 +189,7 @@ TEST(ShmProcesses, writers_that_are_killed_leave_whole_records_and_a_usable_slot
   EXPECT_EQ(Segment::attach(slot.number())->connected(), 2) << "the dead do not count";
 }
 
-TEST(ShmProcesses, readers_that_are_killed_leave_the_writer_the_last_one) {
+TEST(ShmProcesses, killed_readers_do_not_count_as_attached) {
   test::FreeSlot slot;
   auto sink = open_sink(url_of(slot));
   for (int round = 0; round < 20; ++round) {
@@ -216,7 +216,7 @@ TEST(ShmProcesses, readers_that_are_killed_leave_the_writer_the_last_one) {
   EXPECT_FALSE(slot.has_file());
 }
 
-TEST(ShmProcesses, a_segment_whose_maker_died_half_way_is_taken_over) {
+TEST(ShmProcesses, a_segment_whose_creator_crashed_is_taken_over) {
   test::FreeSlot slot;
   Child maker([&] {
     slot.make_segment(544);
@@ -233,7 +233,7 @@ TEST(ShmProcesses, a_segment_whose_maker_died_half_way_is_taken_over) {
   EXPECT_EQ(reader->connected(), 2);
 }
 
-TEST(ShmProcesses, opening_and_closing_against_each_other_loses_nothing) {
+TEST(ShmProcesses, concurrent_opening_and_closing_loses_nothing) {
   test::FreeSlot slot;
   const auto open_and_close = [&] {
     for (int i = 0; i < 300; ++i) {

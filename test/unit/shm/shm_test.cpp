@@ -121,7 +121,7 @@ TEST_F(Shm, counters_wrap_and_replaced_sets_are_counted) {
   EXPECT_EQ(source->statistics().overwritten, 65529U);
 }
 
-TEST_F(Shm, a_reader_waits_without_making_anything) {
+TEST_F(Shm, a_reader_waits_without_creating_anything) {
   const auto source = open_source(url());
   EXPECT_EQ(source->receive(into, 0s), Event::idle);
   EXPECT_FALSE(slot.has_file());
@@ -134,7 +134,7 @@ TEST_F(Shm, a_reader_waits_without_making_anything) {
   EXPECT_TRUE(receive_until(*source, [](const Sample& s) { return is_params(s, 5); }));
 }
 
-TEST_F(Shm, a_file_without_a_segment_is_left_by_the_reader_and_used_by_the_writer) {
+TEST_F(Shm, a_file_without_a_segment_is_not_changed_by_the_reader_and_used_by_the_writer) {
   const int id = slot.make_segment(528);
   ::shmctl(id, IPC_RMID, nullptr);
   struct stat before {};
@@ -163,7 +163,7 @@ TEST_F(Shm, the_last_one_removes_segment_and_file) {
   EXPECT_FALSE(slot.has_file());
 }
 
-TEST_F(Shm, connected_counts_handles_and_attachments_are_the_truth) {
+TEST_F(Shm, connected_counts_handles_but_attachments_decide) {
   auto first = Segment::attach_or_create(slot.number(), layout(), 0666);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->connected(), 1);
@@ -182,7 +182,7 @@ TEST_F(Shm, connected_counts_handles_and_attachments_are_the_truth) {
   EXPECT_FALSE(slot.has_file());
 }
 
-TEST_F(Shm, a_new_segment_has_the_mode_that_was_said_whatever_the_umask) {
+TEST_F(Shm, a_new_segment_has_the_given_mode_whatever_the_umask) {
   const mode_t before = ::umask(0077);
   const auto sink = open_sink(url("?mode=0664"));
   ::umask(before);
@@ -208,7 +208,7 @@ TEST_F(Shm, reattaches_when_the_segment_is_recreated) {
   EXPECT_EQ(source->statistics().reattached, 1U);
 }
 
-TEST_F(Shm, a_slot_that_means_another_segment_is_followed_though_the_old_one_lives) {
+TEST_F(Shm, a_slot_with_another_segment_is_followed_although_the_old_one_exists) {
   // The file alone goes: its old segment stays, out of everybody's reach. For as long as it lives, a spare keeps its
   // inode, and so its key, from any other slot.
   struct Spare {
@@ -240,7 +240,7 @@ TEST_F(Shm, a_sink_recreates_a_removed_segment_with_its_constants) {
   EXPECT_EQ(*wire::constants_from_image(image.view(), reader->layout().record), constants());
 }
 
-TEST_F(Shm, recreate_makes_a_fresh_segment_when_all_others_have_left) {
+TEST_F(Shm, recreate_makes_a_new_segment_when_all_others_have_detached) {
   const auto sink = open_sink(url("?recreate=1"));
   auto source = open_source(url());
   ASSERT_TRUE(sink->write(constants()));
@@ -275,7 +275,7 @@ TEST_F(Shm, an_i386_segment_refuses_a_counter_that_it_cannot_hold) {
   EXPECT_EQ(sink->statistics().params, 1U);
 }
 
-TEST_F(Shm, an_unsound_record_is_malformed_and_costs_itself_alone) {
+TEST_F(Shm, only_the_malformed_record_is_lost) {
   const auto sink = open_sink(url());
   const auto source = open_source(url());
   auto* memory = static_cast<char*>(::shmat(slot.segment(), nullptr, 0));
@@ -296,7 +296,7 @@ TEST_F(Shm, an_unsound_record_is_malformed_and_costs_itself_alone) {
   EXPECT_EQ(source->statistics().malformed, 1U);
 }
 
-TEST_F(Shm, stop_wakes_a_waiting_reader_for_good) {
+TEST_F(Shm, stop_wakes_a_waiting_reader_permanently) {
   const auto source = open_source(url());
   std::thread stopper([&] { source->stop(); });
   EXPECT_EQ(source->receive(into, -1ns), Event::stopped);
@@ -304,7 +304,7 @@ TEST_F(Shm, stop_wakes_a_waiting_reader_for_good) {
   EXPECT_EQ(source->receive(into, 0s), Event::stopped);
 }
 
-TEST_F(Shm, a_closed_sink_says_so) {
+TEST_F(Shm, a_closed_sink_reports_it) {
   const auto sink = open_sink(url());
   ASSERT_TRUE(sink->write(constants()));
   ASSERT_TRUE(sink->close());

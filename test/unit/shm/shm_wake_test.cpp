@@ -100,7 +100,7 @@ class ShmWake : public ::testing::Test {
   test::FreeSlot slot;
 };
 
-TEST_F(ShmWake, what_is_behind_a_segment_is_shared_and_empty_when_new) {
+TEST_F(ShmWake, the_area_behind_a_segment_is_shared_and_empty_when_new) {
   auto segment = make();
   shmid_ds state{};
   ASSERT_EQ(::shmctl(segment.id(), IPC_STAT, &state), 0);
@@ -114,7 +114,7 @@ TEST_F(ShmWake, what_is_behind_a_segment_is_shared_and_empty_when_new) {
   EXPECT_TRUE(segment.is_announced());
 }
 
-TEST_F(ShmWake, sets_of_the_field_are_not_announced) {
+TEST_F(ShmWake, sets_of_existing_programs_are_not_announced) {
   auto segment = make();
   FieldProgram field(slot, layout());
   ASSERT_TRUE(field.open());
@@ -131,7 +131,7 @@ TEST_F(ShmWake, sets_of_the_field_are_not_announced) {
   }
 }
 
-TEST_F(ShmWake, a_write_wakes_once_and_only_who_waits) {
+TEST_F(ShmWake, a_write_wakes_once_and_only_waiting_readers) {
   auto segment = make();
   const Memory other(segment.id());
   const auto waiter = segment.wait_for_write();
@@ -147,7 +147,7 @@ TEST_F(ShmWake, a_write_wakes_once_and_only_who_waits) {
   EXPECT_NE(other.wake_word(), after) << "constants wake as well";
 }
 
-TEST_F(ShmWake, a_write_is_no_system_call_where_nobody_waits) {
+TEST_F(ShmWake, a_write_is_no_system_call_if_nobody_waits) {
   bool is_permitted = true;
   const auto calls_of_100 = [&](bool has_dead_waiter) {
     return test::system_calls_of(
@@ -180,7 +180,7 @@ TEST_F(ShmWake, each_set_of_our_writer_is_received) {
   EXPECT_EQ(source->statistics().overwritten, 0U);
 }
 
-TEST_F(ShmWake, a_writer_of_the_field_beside_ours_is_not_missed) {
+TEST_F(ShmWake, an_existing_writer_beside_ours_is_not_missed) {
   const auto sink = open_sink(url());
   const auto source = open_source(url());
   FieldProgram field(slot, layout());
@@ -227,7 +227,7 @@ bool forbid_futex_waitv() {
   return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }
 
-TEST_F(ShmWake, where_the_system_cannot_wait_for_two_things_the_reader_looks) {
+TEST_F(ShmWake, if_the_system_cannot_wait_for_two_things_the_reader_polls) {
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {

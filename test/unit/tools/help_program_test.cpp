@@ -64,7 +64,7 @@ TEST(TrkHelp, EndpointsAndTheirOptionsAreExplained) {
 
 TEST(TrkHelp, ACommandIsExplained) { EXPECT_EQ(output_of({"help", "relay"}), output_of({"relay", "--help"})); }
 
-TEST(TrkErrors, AreOneLineThatNamesWhatWasMeant) {
+TEST(TrkErrors, AreOneLineWithASuggestion) {
   const std::string take = "file:" + test::data_path("field/takes/euler.trk");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"dmp", take}, "unknown command \"dmp\", did you mean dump? (see trk --help)"},

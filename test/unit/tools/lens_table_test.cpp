@@ -21,7 +21,7 @@ std::size_t count_of(const std::string& what, const std::string& text) {
   return count;
 }
 
-TEST(LensReport, SaysWhatIsInATable) {
+TEST(LensReport, DescribesATable) {
   // 9.6 mm of chip over 4.8 mm are 90 degrees, over 48 mm 2 * atan(0.1) = 11.4212 degrees. At 4.8 mm, k1 = 0.001 moves
   // by 0.001 * 4.8^2 = 2.304 %.
   EXPECT_THAT(
@@ -37,7 +37,7 @@ focus: [{count: 5, distance: 4}, {count: 9, distance: 0.5}]
                   "focus: 5 to 9 counts, 0.5 to 4 m"));
 }
 
-TEST(LensReport, SaysWhatIsNotKnown) {
+TEST(LensReport, ReportsWhatIsNotKnown) {
   EXPECT_THAT(lines_of(table_of("points: [{zoom: 0, focal_length: 8}, {zoom: 1, focal_length: 9}]")),
               ElementsAre("2 points, pchip over zoom", "zoom: 0 to 1 counts", "focal length: 8 to 9 mm",
                           "centre shift: x 0 mm, y 0 mm", "distortion at 1 mm from the optical axis: 0 %",

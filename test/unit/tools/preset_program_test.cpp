@@ -75,7 +75,7 @@ Received relayed_to(const std::string& preset) {
   return received;
 }
 
-TEST(TrkRelay, SendsAReceiverWhatItsPresetSays) {
+TEST(TrkRelay, SendsAReceiverTheFormatOfItsPreset) {
   const Received received = relayed_to("orad");
   EXPECT_EQ(received.params.format, 0x2BCU);
   EXPECT_EQ(received.params.id, 3U);

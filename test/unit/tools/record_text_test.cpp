@@ -37,7 +37,7 @@ rapidjson::Document parsed(std::string_view text) {
   return document;
 }
 
-TEST(JsonLine, AnyDoubleReadsBackToTheLastBit) {
+TEST(JsonLine, AnyDoubleRoundTripsExactly) {
   std::mt19937_64 random(20240229);
   JsonLine line;
   for (int i = 0; i < 20'000; ++i) {
@@ -51,7 +51,7 @@ TEST(JsonLine, AnyDoubleReadsBackToTheLastBit) {
   }
 }
 
-TEST(JsonLine, TheDoublesThatAreEasyToGetWrong) {
+TEST(JsonLine, DifficultDoublesAreExact) {
   JsonLine line;
   for (const double value :
        {-0.0, 0.0, 1e22, 5e-324, std::numeric_limits<double>::max(), 0.1, 1.0 / 3.0, 179.99999, -7.0}) {
@@ -79,7 +79,7 @@ TEST(JsonLine, HasTheExactArrival) {
   EXPECT_THAT(std::string(line.of(sample_of(wire::CameraParams{}))), HasSubstr("\"arrival\":1700000000.123456789,"));
 }
 
-TEST(JsonLine, HasTheTimeCodeWhereThereIsOne) {
+TEST(JsonLine, HasTheTimeCodeIfThereIsOne) {
   JsonLine line;
   auto sample = sample_of(wire::CameraParams{});
   EXPECT_FALSE(parsed(line.of(sample)).HasMember("time_code"));
@@ -88,14 +88,14 @@ TEST(JsonLine, HasTheTimeCodeWhereThereIsOne) {
   EXPECT_THAT(plain_line(sample), HasSubstr(" 10:20:30;12:1 id "));
 }
 
-TEST(JsonLine, WhatIsNotFiniteIsNull) {
+TEST(JsonLine, ValuesThatAreNotFiniteAreNull) {
   wire::CameraParams params;
   params.k1 = std::numeric_limits<double>::infinity();
   JsonLine line;
   EXPECT_TRUE(parsed(line.of(sample_of(params)))["k1"].IsNull());
 }
 
-TEST(JsonLine, CountersAreWholeToTheLast) {
+TEST(JsonLine, LargeCountersAreExact) {
   wire::CameraParams params;
   params.counter = std::numeric_limits<std::uint64_t>::max();
   params.id = std::numeric_limits<std::uint32_t>::max();

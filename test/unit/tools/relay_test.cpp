@@ -93,7 +93,7 @@ TEST_F(RelayTest, EveryWorkedCaseBecomesTheCanonicalCameraInEuler) {
   }
 }
 
-TEST_F(RelayTest, WithoutOptionsEveryRecordPassesAsItCame) {
+TEST_F(RelayTest, WithoutOptionsRecordsAreNotChanged) {
   std::vector<wire::Record> sent;
   for (const auto& line : test::read_jsonl("field/identified_lp64/params.jsonl")) {
     sent.emplace_back(test::params_of(line["fields"]));
@@ -121,14 +121,14 @@ TEST_F(RelayTest, RecordsWithoutALensAreRefusedWithTheReason) {
   EXPECT_THAT(err.str(), HasSubstr("not passed on: 2 parameters: the records have no lens"));
 }
 
-TEST_F(RelayTest, ALensThatIsBeyondItsTableIsNamed) {
+TEST_F(RelayTest, ALensOutsideItsTableIsReported) {
   feed.put_without_lens(test::params(2, 3), "the lens encoders are beyond the lens table");
   add_gate();
   EXPECT_EQ(run(), cli::exit_failed);
   EXPECT_THAT(err.str(), HasSubstr("the records have no lens: the lens encoders are beyond the lens table"));
 }
 
-TEST_F(RelayTest, AnotherIdReplacesTheOneThatCame) {
+TEST_F(RelayTest, AnotherIdReplacesTheReceivedOne) {
   feed.put(test::constants(720, 3));
   feed.put(test::params(1, 3));
   add_gate();
@@ -161,7 +161,7 @@ TEST_F(RelayTest, ConstantsAreKeptById) {
   EXPECT_NEAR(std::get<wire::CameraParams>(records[3]).fov, 2.2, 1e-12);
 }
 
-TEST_F(RelayTest, TheFakeChipAgreesWithTheFormatSent) {
+TEST_F(RelayTest, TheFakeChipFitsTheSentFormat) {
   auto constants = test::constants(720);
   constants.blank_left = constants.blank_right = 10;
   constants.fake_chip_width = constants.fake_chip_height = 0;
@@ -175,7 +175,7 @@ TEST_F(RelayTest, TheFakeChipAgreesWithTheFormatSent) {
   EXPECT_NEAR(sent.fake_chip_height, 6.6 * 720 / 700, 1e-12);
 }
 
-TEST_F(RelayTest, WhatNeedsConstantsIsRefusedWithoutThemReportedOnceAndCounted) {
+TEST_F(RelayTest, RecordsThatNeedConstantsAreRefusedWithoutThemReportedOnceAndCounted) {
   auto params = test::params(1);
   params.format |= wire::field_of_view;
   for (params.counter = 1; params.counter <= 3; ++params.counter) feed.put(params);
@@ -191,7 +191,7 @@ TEST_F(RelayTest, WhatNeedsConstantsIsRefusedWithoutThemReportedOnceAndCounted) 
   EXPECT_EQ(err.str().find(once), err.str().rfind(once));
 }
 
-TEST_F(RelayTest, ConstantsWithoutAPictureMakeTheOnesBeforeInvalid) {
+TEST_F(RelayTest, InvalidConstantsInvalidateEarlierOnes) {
   auto params = test::params(1);
   params.format |= wire::field_of_view;
   feed.put(test::constants(720));
@@ -203,7 +203,7 @@ TEST_F(RelayTest, ConstantsWithoutAPictureMakeTheOnesBeforeInvalid) {
   EXPECT_EQ(records.size(), 1u) << "the first constants only: what came after them made them invalid";
 }
 
-TEST_F(RelayTest, ASinkThatRefusesDoesNotKeepTheOthersFromIt) {
+TEST_F(RelayTest, ASinkThatRefusesDoesNotAffectOthers) {
   test::Gate torn;
   torn.open();
   torn.set_fault(transport::SinkFault{transport::SinkReason::system, {}, ENETUNREACH});
@@ -239,7 +239,7 @@ TEST_F(RelayTest, EverySinkHasItsOwnForm) {
 }
 
 /// Over sockets: x is when a set was sent, in s.
-TEST_F(RelayTest, ADelayedSinkGetsTheCameraOfThatLongAgo) {
+TEST_F(RelayTest, ADelayedSinkGetsTheDelayedCamera) {
   const auto seconds_now = [] { return static_cast<double>(base::wall_now() % 1'000'000'000'000) / 1e9; };
   const test::PlainSocket tracker, receiver;
   const auto source = endpoints::open_source("udp://127.0.0.1:0");
@@ -303,7 +303,7 @@ TEST_F(RelayTest, ATakeThatIsReadAsFastAsPossibleCannotBeDelayed) {
   }
 }
 
-TEST_F(RelayTest, ASinkThatIsSlowDoesNotKeepTheOthersFromTheirRate) {
+TEST_F(RelayTest, ASlowSinkDoesNotSlowDownOthers) {
   test::Gate slow;
   add(test::endpoint_of(slow, transport::Blocking::storage, {}, "slow disk"));
   add_gate();
@@ -373,7 +373,7 @@ TEST_F(RelayTest, ACopyOfATakeHasItsTimeCode) {
   EXPECT_THAT(test::read_text(copy), HasSubstr("\n10:59:59;29:2\n"));
 }
 
-TEST_F(RelayTest, SetsThatNewerOnesReplaceAreReportedAndNoFailure) {
+TEST_F(RelayTest, ReplacedSetsAreReportedAndNotAFailure) {
   constexpr std::uint64_t sets = 500;
   test::Gate slow;
   add(test::endpoint_of(slow, transport::Blocking::attaching, {}, "slow slot"));
@@ -399,7 +399,7 @@ TEST_F(RelayTest, ConstantsOfTooManyIdsAreRefused) {
   EXPECT_THAT(err.str(), HasSubstr("not passed on: 44 records: "));
 }
 
-TEST_F(RelayTest, AFileBeginsWhenConstantsCome) {
+TEST_F(RelayTest, AFileBeginsWhenConstantsArrive) {
   const test::TemporaryDirectory directory;
   const std::string path = directory / "take.trk";
   add_file(path);
@@ -414,7 +414,7 @@ TEST_F(RelayTest, AFileBeginsWhenConstantsCome) {
   EXPECT_EQ(take.params[0], test::params(4));
 }
 
-TEST_F(RelayTest, AFileWithoutConstantsIsNone) {
+TEST_F(RelayTest, WithoutConstantsThereIsNoFile) {
   const test::TemporaryDirectory directory;
   add_file(directory / "take.trk");
   feed.put(test::params(1));

@@ -66,7 +66,7 @@ std::vector<Outcome> dump_and_relay(const std::string& take, const std::string& 
   return outcomes;
 }
 
-TEST(Takes, OneThatIsCutIsUsedToItsLastWholeLineWithAWarning) {
+TEST(Takes, ATruncatedTakeIsUsedToItsLastCompleteLineWithAWarning) {
   const test::TemporaryDirectory directory;
   const std::string path = directory / "cut.trk", copy = directory / "copy.trk";
   const std::string original = test::data_path("field/takes/euler.trk");
@@ -81,7 +81,7 @@ TEST(Takes, OneThatIsCutIsUsedToItsLastWholeLineWithAWarning) {
   EXPECT_EQ(file::read_take(copy).params.size(), fields);
 }
 
-TEST(Takes, ALineThatIsNotSoundIsAnErrorThatNamesItWhereverItStands) {
+TEST(Takes, AMalformedLineIsAnErrorThatNamesItAnywhere) {
   const test::TemporaryDirectory directory;
   const std::string path = directory / "bad.trk", copy = directory / "copy.trk";
   std::string text = test::read_text(test::data_path("field/takes/euler.trk"));

@@ -57,7 +57,7 @@ rapidjson::Document parsed(const std::string& text) {
   return document;
 }
 
-TEST(TrkDump, PrintsTheFieldsBinaryDatagramsBitForBit) {
+TEST(TrkDump, PrintsBinaryDatagramsOfExistingProgramsBitForBit) {
   Program dump({TRK_TOOL, "dump", "udp://127.0.0.1:0?layout=identified", "--json"});
   const std::uint16_t port = port_of(dump);
   const test::PlainSocket tracker;
@@ -96,7 +96,7 @@ TEST(TrkDump, EndsOnSigintWithASummary) {
   EXPECT_EQ(dump.wait(), 0);
 }
 
-TEST(TrkDump, AReaderThatHasSeenEnoughIsAnOrdinaryEnd) {
+TEST(TrkDump, AReaderThatClosesThePipeEndsItWithoutError) {
   Program dump({TRK_TOOL, "dump", "file:" + test::data_path("field/takes/euler.trk") + "?speed=0&loop=1"});
   ASSERT_TRUE(dump.out_line());
   dump.close_out();
@@ -112,7 +112,7 @@ TEST(TrkDump, AFullDiskIsAFailure) {
   EXPECT_EQ(dump.wait(), 1);
 }
 
-TEST(TrkRelay, RecordsATakeThatIsTheSameAgain) {
+TEST(TrkRelay, RecordsAnEqualTake) {
   const test::TemporaryDirectory directory;
   const std::string original = test::data_path("field/takes/euler.trk"), copy = directory / "copy.trk";
   Program relay({TRK_TOOL, "relay", "file:" + original + "?speed=0", "file:" + copy});
@@ -160,7 +160,7 @@ class TrkRecording : public testing::Test {
   std::uint64_t sent = 0;
 };
 
-TEST_F(TrkRecording, TwoSignalsInQuickSuccessionCostNothing) {
+TEST_F(TrkRecording, TwoSignalsInQuickSuccessionLoseNothing) {
   for (int round = 0; round < 12; ++round) {
     ASSERT_NO_FATAL_FAILURE(start({"file:" + path + "?overwrite=1"}));
     send_fields(20);
@@ -175,7 +175,7 @@ TEST_F(TrkRecording, TwoSignalsInQuickSuccessionCostNothing) {
   }
 }
 
-TEST_F(TrkRecording, WhatWasWrittenBeforeItWasKilledIsRecovered) {
+TEST_F(TrkRecording, RecordsWrittenBeforeAKillAreRecovered) {
   ASSERT_NO_FATAL_FAILURE(start({"file:" + path}));
   send_fields(100);
   ASSERT_TRUE(has_fields(path + ".part", 100));
@@ -190,7 +190,7 @@ TEST_F(TrkRecording, WhatWasWrittenBeforeItWasKilledIsRecovered) {
   EXPECT_EQ(relay->wait(), 0);
 }
 
-TEST_F(TrkRecording, ANameThatCannotBeOpenedEndsItAtOnce) {
+TEST_F(TrkRecording, AFileThatCannotBeOpenedEndsItAtOnce) {
   test::write_text(path, "precious");
   const std::string other = directory / "other.trk";
   Program program({TRK_TOOL, "relay", "udp://127.0.0.1:0", "file:" + other, "file:" + path});
@@ -211,7 +211,7 @@ TEST_F(TrkRecording, ClosedStandardDescriptorsDoNotBecomeTheFile) {
   EXPECT_EQ(file::read_take(path).params, file::read_take(take).params);
 }
 
-TEST_F(TrkRecording, AFifoThatNobodyReadsAnyMoreHoldsUpNobody) {
+TEST_F(TrkRecording, AFifoWithoutReaderBlocksNobody) {
   const std::string fifo = directory / "fifo";
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
   const transport::Descriptor reader(::open(fifo.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
@@ -237,7 +237,7 @@ TEST_F(TrkRecording, AFifoThatNobodyReadsAnyMoreHoldsUpNobody) {
                   "error: file .*fifo: it does not answer, and was not waited for; [0-9]+ queued records are lost"));
 }
 
-TEST(TrkRelay, ClosesAFileInOrderOnSigterm) {
+TEST(TrkRelay, ClosesAFileProperlyOnSigterm) {
   const test::TemporaryDirectory directory;
   const std::string path = directory / "take.trk";
   Program relay({TRK_TOOL, "relay", "udp://127.0.0.1:0", "file:" + path});
@@ -256,7 +256,7 @@ TEST(TrkRelay, ClosesAFileInOrderOnSigterm) {
   EXPECT_EQ(file::read_take(path).params.size(), 3u);
 }
 
-TEST(TrkRelay, ArgumentsThatAreWrongEndItBeforeAnythingIsOpened) {
+TEST(TrkRelay, WrongArgumentsEndItBeforeAnythingIsOpened) {
   const auto result = [](std::vector<std::string> words) {
     words.insert(words.begin(), TRK_TOOL);
     Program program(std::move(words));

@@ -42,7 +42,7 @@ Sample sample_of(const wire::Record& record) {
 
 SourceState state_of(const Source& source) { return source.statistics().state; }
 
-TEST(CountedSource, ReceivingIsReachedByAValidRecordOnly) {
+TEST(CountedSource, OnlyAValidRecordLeadsToReceiving) {
   Scripted source;
   EXPECT_EQ(state_of(source), SourceState::waiting);
   EXPECT_EQ(source.statistics().waiting_for, "the test");
@@ -72,7 +72,7 @@ TEST(CountedSource, ReceivingIsReachedByAValidRecordOnly) {
   EXPECT_EQ(statistics.overwritten, 5u) << "what the kind of source adds";
 }
 
-TEST(CountedSource, AnEndIsForGood) {
+TEST(CountedSource, AnEndIsPermanent) {
   Scripted source;
   source.sample(sample_of(test::params(1)));
   EXPECT_EQ(source.final_event(), Event::sample);
@@ -83,7 +83,7 @@ TEST(CountedSource, AnEndIsForGood) {
   EXPECT_EQ(source.statistics().error, "");
 }
 
-TEST(CountedSource, AFailureSaysWhyAndOfWhat) {
+TEST(CountedSource, AFailureNamesTheSourceAndTheReason) {
   Scripted source;
   source.sample(sample_of(test::params(1)));
   EXPECT_EQ(source.failed(EIO), Event::failed);
@@ -93,7 +93,7 @@ TEST(CountedSource, AFailureSaysWhyAndOfWhat) {
   EXPECT_EQ(source.statistics().records, 1u);
 }
 
-TEST(CountedSource, StopGoesBeforeEveryEnd) {
+TEST(CountedSource, StopHasPriorityOverEveryEnd) {
   Scripted source;
   source.ended();
   source.stop();
@@ -113,7 +113,7 @@ TEST(CountedSource, UnknownFormatBitsAreOfParametersOnly) {
   EXPECT_EQ(source.statistics().records, 3u);
 }
 
-TEST(CountedSource, RecordsTakenInSpiteOfAFaultAreCounted) {
+TEST(CountedSource, RecordsAcceptedDespiteAFaultAreCounted) {
   Scripted source;
   auto doubtful = sample_of(test::params(1));
   doubtful.doubt = "wrong checksum";

@@ -95,7 +95,7 @@ TEST_P(DatagramFloodTest, AWaitEndsReceive) {
   EXPECT_EQ(event_of(receive(std::chrono::milliseconds(1))), Event::idle);
 }
 
-TEST_P(DatagramFloodTest, WhatIsThereAlreadyHasAnEnd) {
+TEST_P(DatagramFloodTest, ZeroWaitEndsReceive) {
   is_flooded = true;
   EXPECT_EQ(event_of(receive(std::chrono::nanoseconds(0))), Event::idle);
 }

@@ -69,7 +69,7 @@ class DatagramSinkTest : public testing::Test {
 
 constexpr double long_period = 86'400;  // s
 
-TEST_F(DatagramSinkTest, SeveralDatagramsARecordInTheirOrder) {
+TEST_F(DatagramSinkTest, SeveralDatagramsPerRecordInOrder) {
   script.params = {"one", "two", "three"};
   const auto sink = open(0);
   ASSERT_TRUE(sink->write(test::params(1)));
@@ -77,7 +77,7 @@ TEST_F(DatagramSinkTest, SeveralDatagramsARecordInTheirOrder) {
   EXPECT_EQ(sink->statistics().params, 1u) << "records are counted, not datagrams";
 }
 
-TEST_F(DatagramSinkTest, ARecordThatTheProtocolDoesNotSendIsNoError) {
+TEST_F(DatagramSinkTest, ARecordThatTheProtocolDoesNotSendIsNotAnError) {
   script.constants.clear();
   const auto sink = open(0);
   ASSERT_TRUE(sink->write(test::constants()));
@@ -116,7 +116,7 @@ TEST_F(DatagramSinkTest, AllDatagramsOfConstantsAreRepeated) {
   EXPECT_EQ(sink->statistics().constants, 2u);
 }
 
-TEST_F(DatagramSinkTest, ConstantsThatWereNotSentGoWithTheNextParameters) {
+TEST_F(DatagramSinkTest, ConstantsThatWereNotSentAreSentWithTheNextParameters) {
   const auto sink = open(long_period);
   script.constants = {too_large};
   EXPECT_FALSE(sink->write(test::constants()));
@@ -141,7 +141,7 @@ TEST_F(DatagramSinkTest, OtherConstantsThatWereNotSentDoNotWaitForThePeriodOfThe
   EXPECT_EQ(next(), "params");
 }
 
-TEST_F(DatagramSinkTest, AFailedRepetitionIsReportedThoughTheParametersWentOut) {
+TEST_F(DatagramSinkTest, AFailedRepetitionIsReportedAlthoughTheParametersWereSent) {
   const auto sink = open(1e-9);
   ASSERT_TRUE(sink->write(test::constants()));
   EXPECT_EQ(next(), "constants");
@@ -155,7 +155,7 @@ TEST_F(DatagramSinkTest, AFailedRepetitionIsReportedThoughTheParametersWentOut) 
   EXPECT_EQ(sink->statistics().errors, 1u);
 }
 
-TEST_F(DatagramSinkTest, WithoutAPeriodConstantsGoOutWhenTheyAreWrittenOnly) {
+TEST_F(DatagramSinkTest, WithoutAPeriodConstantsAreSentOnlyWhenWritten) {
   const auto sink = open(0);
   script.constants = {too_large};
   EXPECT_FALSE(sink->write(test::constants()));
@@ -168,7 +168,7 @@ TEST_F(DatagramSinkTest, WithoutAPeriodConstantsGoOutWhenTheyAreWrittenOnly) {
   EXPECT_EQ(next(), "constants") << "the same ones, too";
 }
 
-TEST_F(DatagramSinkTest, WhatCannotBeEncodedIsNotRepeated) {
+TEST_F(DatagramSinkTest, ConstantsThatCannotBeEncodedAreNotRepeated) {
   const auto sink = open(1e-9);
   script.refuses_constants = true;
   const auto written = sink->write(test::constants());

@@ -70,7 +70,7 @@ class DatagramSourceTest : public testing::Test {
   Reception reception;
 };
 
-TEST_F(DatagramSourceTest, OneSampleADatagram) {
+TEST_F(DatagramSourceTest, OneSamplePerDatagram) {
   const auto source = open();
   send(*source, "7");
   ASSERT_EQ(next(*source, reception), Event::sample);
@@ -81,7 +81,7 @@ TEST_F(DatagramSourceTest, OneSampleADatagram) {
   EXPECT_EQ(source->receive(reception, no_wait), Event::idle);
 }
 
-TEST_F(DatagramSourceTest, SeveralSamplesADatagramShareArrivalAndSender) {
+TEST_F(DatagramSourceTest, SeveralSamplesPerDatagramShareArrivalAndSender) {
   const auto source = open();
   send(*source, "123");
   send(*source, "4");
@@ -101,7 +101,7 @@ TEST_F(DatagramSourceTest, SeveralSamplesADatagramShareArrivalAndSender) {
   EXPECT_THAT(begun, ElementsAre("123", "4"));
 }
 
-TEST_F(DatagramSourceTest, ADatagramWithoutSamplesIsPassedOver) {
+TEST_F(DatagramSourceTest, ADatagramWithoutSamplesIsSkipped) {
   const auto source = open();
   send(*source, "  ");
   EXPECT_EQ(source->receive(reception, no_wait), Event::idle);
@@ -114,7 +114,7 @@ TEST_F(DatagramSourceTest, ADatagramWithoutSamplesIsPassedOver) {
   EXPECT_EQ(begun.size(), 4u);
 }
 
-TEST_F(DatagramSourceTest, AFaultInTheMiddleCostsThatRecordOnly) {
+TEST_F(DatagramSourceTest, AFaultInTheMiddleLosesOnlyThatRecord) {
   const auto source = open();
   send(*source, "1x2");
   EXPECT_EQ(next_counter(*source), 1u);
@@ -128,7 +128,7 @@ TEST_F(DatagramSourceTest, AFaultInTheMiddleCostsThatRecordOnly) {
   EXPECT_EQ(source->statistics().malformed, 1u);
 }
 
-TEST_F(DatagramSourceTest, StopGoesBeforeTheRestOfADatagram) {
+TEST_F(DatagramSourceTest, StopHasPriorityOverTheRestOfADatagram) {
   const auto source = open();
   send(*source, "12");
   EXPECT_EQ(next_counter(*source), 1u);

@@ -45,7 +45,7 @@ TEST(Fault, AreOrderedByReasonAndField) {
   EXPECT_FALSE(late < early || third < late || ninth < third || ninth < ninth);
 }
 
-TEST(Fault, EqualOnesAreEqualWhereverTheyComeFrom) {
+TEST(Fault, EqualFaultsAreEqualWhereverTheyComeFrom) {
   const Fault one = wire::Fault{wire::Reason::bad_magic};
   Fault other;
   EXPECT_NE(one, other);
@@ -54,7 +54,7 @@ TEST(Fault, EqualOnesAreEqualWhereverTheyComeFrom) {
   EXPECT_NE(one, Fault(wire::Fault{wire::Reason::bad_magic, 0, true})) << "one of them is about the id";
 }
 
-TEST(Fault, AProtocolHasFaultsOfItsOwn) {
+TEST(Fault, AProtocolHasItsOwnFaults) {
   const auto describe_own = [](const Fault& fault) {
     return "checksum of field " + std::to_string(fault.field()) + " is wrong, code " + std::to_string(fault.code());
   };
@@ -67,7 +67,7 @@ TEST(Fault, AProtocolHasFaultsOfItsOwn) {
   EXPECT_TRUE((own < of_trk) != (of_trk < own));
 }
 
-TEST(Fault, NoneIsSaidToBeNone) {
+TEST(Fault, NoFaultIsDescribedAsNone) {
   const Fault none;
   EXPECT_STREQ(none.name(), "none");
   EXPECT_EQ(describe(none), "none");

@@ -52,7 +52,7 @@ TEST(Memory, AWriteWakesAWaitingReader) {
   EXPECT_EQ(counter.get(), 3u);
 }
 
-TEST(Memory, StopWakesAndIsForGood) {
+TEST(Memory, StopWakesAndIsPermanent) {
   const auto queue = std::make_shared<test::MemoryQueue>();
   const auto source = std::make_unique<test::MemorySource>(queue);
   const auto sink = std::make_unique<test::MemorySink>(queue);
@@ -67,7 +67,7 @@ TEST(Memory, StopWakesAndIsForGood) {
   EXPECT_EQ(source->receive(reception, std::chrono::nanoseconds(-1)), Event::stopped);
 }
 
-TEST(Memory, AClosedSinkSaysSo) {
+TEST(Memory, AClosedSinkReportsIt) {
   const auto queue = std::make_shared<test::MemoryQueue>();
   const auto sink = std::make_unique<test::MemorySink>(queue);
   ASSERT_TRUE(sink->close());

@@ -40,7 +40,7 @@ class Scripted final : public Sink {
 
 Written refused_by_system(int error) { return tl::make_unexpected(SinkFault{SinkReason::system, {}, error}); }
 
-TEST(Sink, CountsWhatWentOutAndWhatDidNot) {
+TEST(Sink, CountsSentAndFailedRecords) {
   Scripted sink;
   ASSERT_TRUE(sink.write(test::constants()));
   ASSERT_TRUE(sink.write(test::params(1)));
@@ -90,7 +90,7 @@ TEST(Sink, RepeatedConstantsAreCountedWithTheNextWrite) {
   EXPECT_EQ(sink.statistics().constants, 1u);
 }
 
-TEST(Sink, AClosedOneSaysSoAndIsNotAskedAgain) {
+TEST(Sink, AClosedSinkReportsItAndIsNotCalledAgain) {
   Scripted sink;
   ASSERT_TRUE(sink.close());
   EXPECT_EQ(sink.finishes, 1);

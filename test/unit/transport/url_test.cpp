@@ -9,7 +9,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-TEST(Url, HasASchemeAPlaceAndOptionsInTheirOrder) {
+TEST(Url, HasASchemeAPlaceAndOptionsInOrder) {
   const auto url = split_url("udp://[fe80::1%25eth0]:7000?allow=a,b&ttl=3&name=x%26y%3dz&empty=");
   ASSERT_TRUE(url) << url.error();
   EXPECT_EQ(url->scheme, "udp");
@@ -22,7 +22,7 @@ TEST(Url, HasASchemeAPlaceAndOptionsInTheirOrder) {
   EXPECT_EQ(url->options[3].value, "");
 }
 
-TEST(Url, WhatIsLeftOutIsEmpty) {
+TEST(Url, OmittedPartsAreEmpty) {
   const auto bare = split_url("shm:7");
   ASSERT_TRUE(bare);
   EXPECT_EQ(bare->scheme, "shm");
@@ -43,7 +43,7 @@ TEST(Url, WrongOptionsAreNamed) {
   EXPECT_THAT(split_url("shm:7?a=%zz").error(), AllOf(HasSubstr("option a"), HasSubstr("\"%zz\"")));
 }
 
-TEST(Url, PercentStandsForAByte) {
+TEST(Url, PercentEncodesAByte) {
   EXPECT_EQ(percent_decoded(""), "");
   EXPECT_EQ(percent_decoded("a%20b%3F%3f%25"), "a b??%");
   EXPECT_EQ(percent_decoded("%ff"), "\xff");
@@ -54,7 +54,7 @@ TEST(Url, PercentStandsForAByte) {
   }
 }
 
-TEST(Url, AnIpv6AddressStandsInBrackets) {
+TEST(Url, AnIpv6AddressIsInBrackets) {
   EXPECT_EQ(udp_url("192.0.2.7", 7000), "udp://192.0.2.7:7000");
   EXPECT_EQ(udp_url("::1", 1), "udp://[::1]:1");
   EXPECT_EQ(udp_url("", 7000), "udp://:7000");

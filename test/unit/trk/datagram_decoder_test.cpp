@@ -46,7 +46,7 @@ std::string origin_of(DatagramDecoder& decoder, const std::string& datagram, con
   return first_of(decoder, datagram, from, sample, fault) == Next::sample ? sample.origin : fault.name();
 }
 
-TEST(DatagramDecoder, OneSampleADatagram) {
+TEST(DatagramDecoder, OneSamplePerDatagram) {
   DatagramDecoder decoder({});
   Sample sample;
   Fault fault;
@@ -67,7 +67,7 @@ TEST(DatagramDecoder, OneSampleADatagram) {
   EXPECT_EQ(sample.arrival, 7) << "it is the socket's to know";
 }
 
-TEST(DatagramDecoder, AFaultSaysWhy) {
+TEST(DatagramDecoder, AFaultHasAReason) {
   DatagramDecoder decoder({});
   Sample sample;
   Fault fault;
@@ -76,7 +76,7 @@ TEST(DatagramDecoder, AFaultSaysWhy) {
   EXPECT_EQ(origin_of(decoder, test::datagram(test::params(1)), sender(1)), "ASCII") << "the next datagram is good";
 }
 
-TEST(DatagramDecoder, RemembersWhatASendersRecordsShow) {
+TEST(DatagramDecoder, RemembersTheLayoutOfASender) {
   DatagramDecoder decoder({});
   EXPECT_EQ(origin_of(decoder, test::datagram(test::constants(), document), sender(1)), "binary document_lp64");
   EXPECT_EQ(origin_of(decoder, test::datagram(test::constants(), identified), sender(2)), "binary identified_lp64");
@@ -85,7 +85,7 @@ TEST(DatagramDecoder, RemembersWhatASendersRecordsShow) {
   EXPECT_EQ(origin_of(decoder, ambiguous(), sender(1)), "binary document_lp64");
 }
 
-TEST(DatagramDecoder, AGivenLayoutHoldsForAll) {
+TEST(DatagramDecoder, AGivenLayoutIsUsedForAll) {
   DatagramDecoder decoder({wire::Generation::document, {}, {}});
   EXPECT_THAT(origin_of(decoder, ambiguous(), sender(1)), StartsWith("binary document_lp64"));
   EXPECT_THAT(origin_of(decoder, ambiguous(), sender(2)), StartsWith("binary document_lp64"));
@@ -96,7 +96,7 @@ TEST(DatagramDecoder, AGuessedLayoutIsMarked) {
   EXPECT_EQ(origin_of(decoder, ambiguous(), sender(1)), "binary identified_lp64, layout guessed");
 }
 
-TEST(DatagramDecoder, TheOneSilentLongestGivesWay) {
+TEST(DatagramDecoder, TheSenderThatIsSilentLongestIsReplaced) {
   DatagramDecoder decoder({});
   for (std::uint32_t port = 0; port < DatagramDecoder::capacity; ++port) {
     ASSERT_EQ(origin_of(decoder, test::datagram(test::constants(), document), sender(port)), "binary document_lp64");
@@ -108,7 +108,7 @@ TEST(DatagramDecoder, TheOneSilentLongestGivesWay) {
   EXPECT_EQ(origin_of(decoder, ambiguous(), sender(1)), "binary identified_lp64, layout guessed") << "forgotten";
 }
 
-TEST(DatagramDecoder, InvalidDataPushesNobodyOut) {
+TEST(DatagramDecoder, InvalidDataReplaceNoSender) {
   DatagramDecoder decoder({});
   ASSERT_EQ(origin_of(decoder, test::datagram(test::constants(), document), sender(0)), "binary document_lp64");
   for (std::uint32_t port = 1; port <= 10 * DatagramDecoder::capacity; ++port) {

@@ -56,7 +56,7 @@ std::uint64_t send_256_cameras(std::uint16_t port, int fields) {
   return sent;
 }
 
-TEST(UdpSourceAndKernel, HoldsAFifthOfASecondOf256Cameras) {
+TEST(UdpSourceAndKernel, BuffersAFifthOfASecondOf256Cameras) {
   const auto source = open_source("udp://127.0.0.1:0");
   const auto s = source->statistics();
   if (s.receive_buffer < s.wanted_buffer) GTEST_SKIP() << "the kernel grants " << s.receive_buffer << " bytes";
@@ -73,7 +73,7 @@ TEST(UdpSourceAndKernel, HoldsAFifthOfASecondOf256Cameras) {
   EXPECT_EQ(source->statistics().kernel_drops, 0u);
 }
 
-TEST(UdpSourceAndKernel, SaysWhatReceiveBufferWasGranted) {
+TEST(UdpSourceAndKernel, ReportsTheGrantedReceiveBuffer) {
   EXPECT_EQ(open_source("udp://127.0.0.1:0?buffer=65536")->statistics().receive_buffer, 65536u);
   // Without privileges, net.core.rmem_max at most.
   std::uint64_t most = 0;
@@ -121,7 +121,7 @@ std::optional<SystemCalls> calls_of_100(const Before& before, const Beside& besi
       is_permitted);
 }
 
-TEST(UdpSourceAndKernel, OneSystemCallASample) {
+TEST(UdpSourceAndKernel, OneSystemCallPerSample) {
   const auto nothing_beside = [](const auto&) {};
   bool is_permitted = true;
   const auto one_by_one =

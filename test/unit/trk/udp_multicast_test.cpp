@@ -51,7 +51,7 @@ TEST(UdpMulticast, TheInterfaceMayBeNamed) {
   EXPECT_EQ(test::next_counter(*source), 1u);
 }
 
-TEST(UdpMulticast, SendersAreToldAndMayBeRefused) {
+TEST(UdpMulticast, SendersAreReportedAndCanBeRefused) {
   const auto source = open_source("udp://239.255.77.14:0?interface=127.0.0.1&allow=127.0.0.2");
   const auto sink = open_sink(place("239.255.77.14", *source, "?interface=127.0.0.1&ttl=0"));
   ASSERT_TRUE(sink->write(test::params(1)));
@@ -61,7 +61,7 @@ TEST(UdpMulticast, SendersAreToldAndMayBeRefused) {
   EXPECT_THAT(to_string(source->statistics().last_refused), HasSubstr("127.0.0.1:"));
 }
 
-TEST(UdpMulticast, AReaderThatIsNotOfTheGroupKeepsItsPort) {
+TEST(UdpMulticast, AReaderWithoutGroupKeepsItsPort) {
   const auto group = open_source("udp://239.255.77.15:0?interface=127.0.0.1");
   EXPECT_THROW((void)open_source(place("0.0.0.0", *group, "")), TransportError);
   EXPECT_NO_THROW((void)open_source(place("127.0.0.1", *group, ""))) << "another address is another socket";

@@ -309,7 +309,7 @@ class Recovery : public NetworkTest, public testing::WithParamInterface<Case> {
 class SourceRecovery : public Recovery {};
 class SinkRecovery : public Recovery {};
 
-TEST_P(SourceRecovery, RecordsComeAgain) {
+TEST_P(SourceRecovery, RecordsAreReceivedAgain) {
   if (happening().is_there_before) network->plug_in("index 77");
   const auto source = source_at(way().url);
   if (happening().is_there_before) {
@@ -365,7 +365,7 @@ INSTANTIATE_TEST_SUITE_P(Networks, SinkRecovery,
 class SourceOutage : public NetworkTest, public testing::WithParamInterface<Way> {};
 class SinkOutage : public NetworkTest, public testing::WithParamInterface<Way> {};
 
-TEST_P(SourceOutage, SaysWhatItWaitsFor) {
+TEST_P(SourceOutage, ReportsWhatItWaitsFor) {
   const Way& way = GetParam();
   const auto source = source_at(way.url);
   EXPECT_THAT(waiting_for(*source), AllOf(HasSubstr("udp port 7000: "), HasSubstr(way.tied)));
@@ -383,7 +383,7 @@ TEST_P(SourceOutage, SaysWhatItWaitsFor) {
   }
 }
 
-TEST_P(SinkOutage, IsAFaultForAsLongAsItLasts) {
+TEST_P(SinkOutage, IsAFaultWhileItLasts) {
   const Way& way = GetParam();
   const auto sink = sink_to(way.url);
   const auto fails = [&sink] { return !sink->write(test::params(1)); };
@@ -438,7 +438,7 @@ TEST_P(RouteAddedLater, RecordsArrive) {
 }
 INSTANTIATE_TEST_SUITE_P(Networks, RouteAddedLater, testing::ValuesIn(sinks), name_of_way);
 
-TEST_F(NetworkTest, AReaderThatWaitsInTheKernelHearsTheNewInterface) {
+TEST_F(NetworkTest, AReaderThatWaitsInTheKernelUsesTheNewInterface) {
   // With a limit it waits in another system call than without.
   for (const std::chrono::nanoseconds wait : {std::chrono::nanoseconds(test::deadline), std::chrono::nanoseconds(-1)}) {
     for (const Way& way : sources) {
@@ -513,7 +513,7 @@ TEST_F(NetworkTest, AnAddressThatMovesIsFollowed) {
   EXPECT_TRUE(time_until([&] { return sends_one(*sink, through_w); }));
 }
 
-TEST_F(NetworkTest, ManyInterfacesThatComeAndGoCostNoRecord) {
+TEST_F(NetworkTest, ManyInterfacesThatAppearAndDisappearLoseNoRecord) {
   network->plug_in();
   const auto source = source_at("udp://239.9.9.9:7000");
   const auto sink = sink_to("udp://239.9.9.9:7000?interface=v0");

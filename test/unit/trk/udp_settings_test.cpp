@@ -87,7 +87,7 @@ TEST(UdpSettings, UdpWrongHostsAndPorts) {
   EXPECT_THAT(write_error("udp://host:0"), HasSubstr("1 to 65535"));
 }
 
-TEST(UdpSettings, AnInterfaceThatCannotBeOneIsAnErrorAtOnce) {
+TEST(UdpSettings, AnInvalidInterfaceNameIsAnErrorAtOnce) {
   for (const std::string good : {"eth0", "enp0s31f6.100", "192.0.2.9", "fe80::1", "fe80::1%25eth0"}) {
     EXPECT_NE(udp_in("udp://239.1.2.3:7000?interface=" + good).interface, "") << good;
   }
@@ -99,7 +99,7 @@ TEST(UdpSettings, AnInterfaceThatCannotBeOneIsAnErrorAtOnce) {
   }
 }
 
-TEST(UdpSettings, ALayoutWithoutBinaryWouldCountForNothing) {
+TEST(UdpSettings, ALayoutWithoutBinaryIsRefused) {
   EXPECT_THAT(write_error("udp://h:1?layout=identified"), HasSubstr("binary=1"));
   EXPECT_THAT(write_error("udp://h:1?layout=identified&binary=0"), HasSubstr("binary=1"));
 }

@@ -57,7 +57,7 @@ TEST(UdpSink, AHostNameIsLookedUp) {
   EXPECT_EQ(receiver.receive(), test::datagram(test::params(7)));
 }
 
-TEST(UdpSink, BinaryIsWhatEverythingSpeaksUnlessSaid) {
+TEST(UdpSink, BinaryIsTheCommonLayoutByDefault) {
   const PlainSocket receiver;
   const auto usual = open_sink(url_to(receiver, "?binary=1"));
   ASSERT_TRUE(usual->write(test::constants()));
@@ -70,7 +70,7 @@ TEST(UdpSink, BinaryIsWhatEverythingSpeaksUnlessSaid) {
   EXPECT_EQ(datagram->substr(8 + 188), "\1\2\3\4");
 }
 
-TEST(UdpSink, EveryWriteOfConstantsGoesOut) {
+TEST(UdpSink, EveryWriteOfConstantsIsSent) {
   const PlainSocket receiver;
   const auto sink = open_sink(url_to(receiver, "?constants_period=0"));
   ASSERT_TRUE(sink->write(test::constants(720)));
@@ -119,7 +119,7 @@ TEST(UdpSink, RepeatedConstantsComeBeforeTheParamsOfTheirCamera) {
   }
 }
 
-TEST(UdpSink, WhoeverJoinsLaterLearnsTheConstants) {
+TEST(UdpSink, ALateReceiverGetsTheConstants) {
   auto source = open_source("udp://127.0.0.1:0");
   const std::string place = "udp://127.0.0.1:" + std::to_string(port_of(*source));
   const auto sink = open_sink(place + "?constants_period=0.02");
@@ -142,7 +142,7 @@ TEST(UdpSink, WhoeverJoinsLaterLearnsTheConstants) {
   EXPECT_TRUE(learned);
 }
 
-TEST(UdpSink, AReceiverThatIsNotThereIsNoTroubleForOneThatComes) {
+TEST(UdpSink, AMissingReceiverDoesNotAffectALaterOne) {
   auto source = open_source("udp://127.0.0.1:0");
   const std::string place = "udp://127.0.0.1:" + std::to_string(port_of(*source));
   const auto sink = open_sink(place);
@@ -154,7 +154,7 @@ TEST(UdpSink, AReceiverThatIsNotThereIsNoTroubleForOneThatComes) {
   EXPECT_EQ(sink->statistics().errors, 0u);
 }
 
-TEST(UdpSink, WhatCannotBeEncodedCostsThatRecord) {
+TEST(UdpSink, OnlyARecordThatCannotBeEncodedIsLost) {
   const PlainSocket receiver;
   const auto sink = open_sink(url_to(receiver));
   auto bad = test::params(1);
@@ -174,7 +174,7 @@ TEST(UdpSink, WhatCannotBeEncodedCostsThatRecord) {
   EXPECT_EQ(sink->statistics().params, 1u);
 }
 
-TEST(UdpSink, AfterCloseNothingGoesOut) {
+TEST(UdpSink, AfterCloseNothingIsSent) {
   const PlainSocket receiver;
   const auto sink = open_sink(url_to(receiver));
   ASSERT_TRUE(sink->close());
@@ -214,13 +214,13 @@ TEST(UdpSink, BroadcastNeedsNoOption) {
   EXPECT_EQ(test::next_counter(*source), 3u);
 }
 
-TEST(UdpSink, WhatCannotBeOpenedSaysWhy) {
-  EXPECT_THAT(open_error("udp://0.0.0.0:7000"), HasSubstr("not an address to send to"));
+TEST(UdpSink, ReportsWhyItCannotBeOpened) {
+  EXPECT_THAT(open_error("udp://0.0.0.0:7000"), HasSubstr("no address to send to"));
   EXPECT_THAT(open_error("udp://[::]:7000"), HasSubstr("udp://[::]:7000: host"));
   EXPECT_THAT(open_error("udp://127.0.0.1:7000?interface=127.0.0.1"), HasSubstr("is for multicast"));
 }
 
-TEST(UdpSink, AnInterfaceThatIsNotThereYetIsAFaultOfEachWrite) {
+TEST(UdpSink, AMissingInterfaceIsAFaultOfEachWrite) {
   const auto sink = open_sink("udp://239.255.77.1:7000?interface=nosuch0");
   EXPECT_EQ(sink->name(), "udp to 239.255.77.1:7000 through nosuch0");
   EXPECT_EQ(sink->write(test::params(1)).error().reason, SinkReason::no_interface) << "and not the system's choice";

@@ -82,7 +82,7 @@ TEST(UdpStop, ASignalHandlerWakesIt) {
   ASSERT_EQ(::sigaction(SIGUSR1, &before, nullptr), 0);
 }
 
-TEST(UdpStop, IsForGoodWhateverIsQueued) {
+TEST(UdpStop, IsPermanentWhateverIsQueued) {
   const auto source = open_source("udp://127.0.0.1:0");
   const PlainSocket tracker;
   tracker.send(test::datagram(test::params(1)), "127.0.0.1", port_of(*source));
@@ -95,7 +95,7 @@ TEST(UdpStop, IsForGoodWhateverIsQueued) {
   EXPECT_EQ(source->receive(reception, std::chrono::nanoseconds(0)), Event::stopped);
 }
 
-TEST(UdpStop, ASignalThatIsNotForItDoesNotWakeIt) {
+TEST(UdpStop, AnUnrelatedSignalDoesNotWakeIt) {
   const auto source = open_source("udp://127.0.0.1:0");
   struct sigaction action {};
   action.sa_handler = [](int) {};

@@ -55,11 +55,11 @@ void expect_gets(const std::string& url, const std::string& from, const std::str
 TEST(UdpSource, Ipv4) { expect_gets("udp://127.0.0.1:0", "127.0.0.5", "127.0.0.1"); }
 TEST(UdpSource, EveryIpv4Interface) { expect_gets("udp://0.0.0.0:0", "127.0.0.5", "127.0.0.1"); }
 TEST(UdpSource, Ipv6) { expect_gets("udp://[::1]:0", "::1", "::1"); }
-TEST(UdpSource, EveryInterfaceHearsIpv4ToldAsIpv4) { expect_gets("udp://:0", "127.0.0.5", "127.0.0.1"); }
-TEST(UdpSource, EveryInterfaceHearsIpv6) { expect_gets("udp://:0", "::1", "::1"); }
+TEST(UdpSource, EveryInterfaceReceivesIpv4ReportedAsIpv4) { expect_gets("udp://:0", "127.0.0.5", "127.0.0.1"); }
+TEST(UdpSource, EveryInterfaceReceivesIpv6) { expect_gets("udp://:0", "::1", "::1"); }
 TEST(UdpSource, AHostNameIsLookedUp) { expect_gets("udp://localhost:0", "127.0.0.5", "127.0.0.1"); }
 
-TEST(UdpSource, SaysWhereItIs) {
+TEST(UdpSource, NamesItsAddress) {
   const auto source = open_source("udp://127.0.0.1:0");
   const std::string port = std::to_string(port_of(*source));
   EXPECT_EQ(source->name(), "udp port " + port + " on 127.0.0.1");
@@ -113,7 +113,7 @@ TEST(UdpSource, IdleAfterTheTimeGiven) {
   EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(20));
 }
 
-TEST(UdpSource, AWaitPastAllClocksIsAWait) {
+TEST(UdpSource, AnExtremelyLongWaitIsAWait) {
   const auto source = open_source("udp://127.0.0.1:0");
   const PlainSocket tracker;
   tracker.send("nothing", "127.0.0.1", port_of(*source));
@@ -121,7 +121,7 @@ TEST(UdpSource, AWaitPastAllClocksIsAWait) {
   EXPECT_EQ(source->receive(reception, std::chrono::nanoseconds::max()), Event::malformed);
 }
 
-TEST(UdpSource, StatesAreHonest) {
+TEST(UdpSource, StatesAreReported) {
   const auto source = open_source("udp://127.0.0.1:0?allow=127.0.0.2");
   const PlainSocket allowed("127.0.0.2"), stranger("127.0.0.3");
   const std::uint16_t port = port_of(*source);
@@ -149,7 +149,7 @@ TEST(UdpSource, StatesAreHonest) {
   EXPECT_TRUE(s.waiting_for.empty());
 }
 
-TEST(UdpSource, AllowListsCountOnEveryInterfaceToo) {
+TEST(UdpSource, AllowListsApplyOnEveryInterfaceToo) {
   const auto source = open_source("udp://:0?allow=127.0.0.2,[::1]");
   const PlainSocket ipv4("127.0.0.2"), ipv6("::1"), stranger("127.0.0.3");
   stranger.send(test::datagram(test::params(1)), "127.0.0.1", port_of(*source));
@@ -160,7 +160,7 @@ TEST(UdpSource, AllowListsCountOnEveryInterfaceToo) {
   EXPECT_EQ(source->statistics().refused, 1u);
 }
 
-TEST(UdpSource, OneBadDatagramCostsThatDatagram) {
+TEST(UdpSource, OneBadDatagramLosesOnlyThatDatagram) {
   const auto source = open_source("udp://127.0.0.1:0?buffer=4000000");
   const PlainSocket good("127.0.0.2"), bad("127.0.0.3");
   std::mt19937 random(20240229);
@@ -207,7 +207,7 @@ TEST(UdpSource, OneBadDatagramCostsThatDatagram) {
   EXPECT_EQ(s.kernel_drops, 0u);
 }
 
-TEST(UdpSource, ALongerDatagramThanAnyIsToldAsSuch) {
+TEST(UdpSource, ATooLongDatagramIsReported) {
   const auto source = open_source("udp://127.0.0.1:0");
   const PlainSocket tracker;
   std::string padded = test::datagram(test::params(9));
@@ -279,7 +279,7 @@ TEST(UdpSource, UnknownFormatBitsAreCountedAndKept) {
   EXPECT_EQ(source->statistics().unknown_format_bits, 1u);
 }
 
-TEST(UdpSource, APortInUseIsAnErrorThatSaysWhatCanBeShared) {
+TEST(UdpSource, APortInUseIsAnErrorThatNamesWhatCanBeShared) {
   const auto source = open_source("udp://127.0.0.1:0");
   const std::string url = "udp://127.0.0.1:" + std::to_string(port_of(*source));
   EXPECT_THAT(open_error(url), testing::AllOf(HasSubstr(url), HasSubstr("in use"), HasSubstr("multicast")));
@@ -295,7 +295,7 @@ TEST(UdpSource, ABroadcastAddressIsShared) {
   EXPECT_EQ(next_counter(*other), 4u);
 }
 
-TEST(UdpSource, WhatCannotBeOpenedSaysWhy) {
+TEST(UdpSource, ReportsWhyItCannotBeOpened) {
   EXPECT_THAT(open_error("udp://127.0.0.1:0?interface=127.0.0.1"), HasSubstr("is for multicast"));
   EXPECT_THAT(open_error("udp://192.0.2.300:0"), HasSubstr("192.0.2.300"));
   EXPECT_THAT(open_error("udp://[ff02::7]:0"), HasSubstr("interface=ADDR"));
@@ -307,7 +307,7 @@ TEST(UdpSource, WhatCannotBeOpenedSaysWhy) {
 /// What a source that waits at `place` of some port waits for.
 std::string waiting_for(const std::string& place) { return open_source(place)->statistics().waiting_for; }
 
-TEST(UdpSource, WhatIsNotThereYetIsWaitedFor) {
+TEST(UdpSource, AMissingInterfaceIsWaitedFor) {
   EXPECT_THAT(waiting_for("udp://198.51.100.1:0"), HasSubstr(": no interface that is up has the address 198.51.100.1"));
   EXPECT_THAT(waiting_for("udp://239.255.77.1:0?interface=198.51.100.1"),
               testing::AllOf(HasSubstr("address or name 198.51.100.1;"), HasSubstr("there are"), HasSubstr("lo")));

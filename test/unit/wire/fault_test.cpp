@@ -126,7 +126,7 @@ TEST(Faults, OfTheId) {
   EXPECT_EQ(constants_from_text("I4294967295 " + good_constants)->id, 4294967295U);
 }
 
-TEST(Faults, BehindTheNulOnlyBlanksMayStand) {
+TEST(Faults, OnlyBlanksMayFollowTheNul) {
   EXPECT_EQ(decode_fault(params(good_euler + "\0"s)), "no fault");
   EXPECT_EQ(decode_fault(params(good_euler + " \r\n\v\f\t\0\0 \0\n"s)), "no fault");
   EXPECT_EQ(decode_fault(params(good_euler + "\0x"s)), "trailing text");
@@ -202,7 +202,7 @@ TEST(Faults, NumbersThatAreNotFiniteAreNotWritten) {
 }
 
 /// The transform that the format does not select is not written, so it may be anything.
-TEST(Faults, WhatIsNotWrittenIsNotChecked) {
+TEST(Faults, ValuesThatAreNotWrittenAreNotChecked) {
   CameraParams p;
   p.format = euler;
   p.matrix.fill(nan);
@@ -248,7 +248,7 @@ TEST(Faults, NumbersOfConstantsThatAreNotFiniteAreNotRead) {
   }
 }
 
-TEST(Faults, ACounterTooWideForItsPlaceIsNotWritten) {
+TEST(Faults, ATooLargeCounterIsNotWritten) {
   CameraParams p;
   p.counter = 0x100000000;
   Buffer buffer;

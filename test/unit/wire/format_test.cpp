@@ -7,7 +7,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(FormatWords, OnlyThoseThatMatter) {
+TEST(FormatWords, OnlyRelevantWordsAreWritten) {
   EXPECT_EQ(format_to_words(0),
             "matrix camera_to_studio camera_z_up studio_z_up image_distance consider_blank shift_on_chip");
   EXPECT_EQ(format_to_words(0x3FF & ~euler & ~vertical),
@@ -21,7 +21,7 @@ TEST(FormatWords, OnlyThoseThatMatter) {
             "euler studio_z_up field_of_view vertical consider_blank shift_on_chip");
 }
 
-TEST(FormatWords, VerticalWinsOverDiagonal) {
+TEST(FormatWords, VerticalHasPriorityOverDiagonal) {
   EXPECT_THAT(format_to_words(field_of_view | vertical | diagonal), HasSubstr("field_of_view vertical consider"));
 }
 
@@ -47,7 +47,7 @@ TEST(FormatWords, AnyCaseOrderAndWhiteSpace) {
             0x3BFU);
 }
 
-TEST(FormatWords, TheLastOfTwoOppositesCounts) {
+TEST(FormatWords, TheLastOfTwoOppositesIsUsed) {
   EXPECT_EQ(format_from_words("euler matrix"), 0U);
   EXPECT_EQ(format_from_words("vertical diagonal"), 0x040U);
   EXPECT_EQ(format_from_words("diagonal vertical"), 0x020U);

@@ -125,7 +125,7 @@ TEST(LayoutDetector, TheDefaultFormatOfLowNumberedCamerasIsIdentified) {
   }
 }
 
-TEST(LayoutDetector, AMatrixFormatBeforeAZeroIsADocumentsGuess) {
+TEST(LayoutDetector, AMatrixFormatBeforeAZeroIsGuessedAsDocument) {
   RandomRecords random(5);
   const CameraParams p = random.params(0x12);
   LayoutDetector detector;
@@ -155,7 +155,7 @@ TEST(LayoutDetector, ARecordThatOnlyOneGenerationCanReadDecidesForTheNextOnes) {
   EXPECT_FALSE(read->layout_guessed);
 }
 
-TEST(LayoutDetector, TheOnlyReadingThatFitsWinsOverTheConstants) {
+TEST(LayoutDetector, TheOnlyReadingThatFitsHasPriorityOverTheConstants) {
   RandomRecords random(7);
   LayoutDetector detector;
   ASSERT_TRUE(decode(binary(random.constants(), identified_lp64), detector));
@@ -166,7 +166,7 @@ TEST(LayoutDetector, TheOnlyReadingThatFitsWinsOverTheConstants) {
   expect_read(binary(identified, identified_lp64), detector, identified, identified_lp64);
 }
 
-TEST(LayoutDetector, ALoneZeroFormatMeansTheSameInBothGenerations) {
+TEST(LayoutDetector, ASingleZeroFormatMeansTheSameInBothGenerations) {
   RandomRecords random(8);
   const CameraParams p = random.params(0);
   LayoutDetector detector;
@@ -192,7 +192,7 @@ TEST(LayoutDetector, PaddingMayHaveAnyValue) {
   }
 }
 
-TEST(LayoutDetector, AStaleMatrixBehindEulerAnglesDoesNotCount) {
+TEST(LayoutDetector, AStaleMatrixBehindEulerAnglesIsIgnored) {
   RandomRecords random(10);
   CameraParams p = random.params(0x11);
   p.euler.pan = 0;
@@ -239,7 +239,7 @@ TEST(LayoutDetector, UnknownFormatBitsAreKept) {
   expect_read(binary(matrix, identified_lp64), detector, matrix, identified_lp64);
 }
 
-TEST(LayoutDetector, WhatFitsNoLayoutIsRefused) {
+TEST(LayoutDetector, RecordsThatFitNoLayoutAreRefused) {
   std::string datagram = std::string("DMC01\0PB", 8) + std::string(200, '\x5A');
   for (const std::size_t size : {192U, 196U, 200U}) {
     LayoutDetector detector;
@@ -357,7 +357,7 @@ TEST(CounterWidth, EightBytesSeenToWrapStayEight) {
   }
 }
 
-TEST(CounterWidth, AGivenAbiIsTaken) {
+TEST(CounterWidth, AGivenAbiIsUsed) {
   const std::string datagram = with_counter(0xCDCDCDCD00000007, identified_lp64);
   LayoutDetector wide({{}, Abi::lp64, {}});
   EXPECT_EQ(counter_read(datagram, wide), 0xCDCDCDCD00000007U);

@@ -57,7 +57,7 @@ TEST(LayoutChoice, OtherWordsAreRefused) {
   }
 }
 
-TEST(LayoutChoice, FallsBackForWhatIsNotGiven) {
+TEST(LayoutChoice, FallsBackForMissingParts) {
   const Layout fallback{Generation::document, Abi::i386, ByteOrder::big};
   EXPECT_EQ(resolve({}, fallback), fallback);
   EXPECT_EQ(resolve({Generation::identified, {}, {}}, fallback),

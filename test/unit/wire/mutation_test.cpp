@@ -78,7 +78,7 @@ TEST(Mutation, TenThousandDamagedDatagrams) {
 }
 
 /// Of a cut text only the NUL and part of the last number can be missed: a cut is a fault, or it is in the counter.
-TEST(Mutation, ACutTextIsAFaultUpToItsLastNumber) {
+TEST(Mutation, ATruncatedTextIsAFaultUpToItsLastNumber) {
   for (const std::string& whole : datagrams("ascii_hex")) {
     const std::size_t last_number = whole.rfind(' ') + 1;
     for (std::size_t size = 0; size <= last_number; ++size) {
@@ -93,7 +93,7 @@ TEST(Mutation, ACutTextIsAFaultUpToItsLastNumber) {
 
 /// A cut binary record is a fault. Only 196 of 200 bytes can be a record of their own, that of an i386 sender: an
 /// identified little-endian one then means the very same, and a matrix of the document's generation is one of a camera.
-TEST(Mutation, ACutBinaryRecordIsAFault) {
+TEST(Mutation, ATruncatedBinaryRecordIsAFault) {
   for (const std::string& whole : datagrams("binary_hex")) {
     LayoutDetector reference_detector;
     const auto reference = decode(whole, reference_detector);

@@ -160,7 +160,7 @@ TEST(Numbers, RememberedTextsAreThoseOfTheSameNumbers) {
 
 TEST(Numbers, SixDigitsAreNotEnough) { EXPECT_EQ(written_pan(179.99999), "179.99999"); }
 
-TEST(Numbers, WhatStrtodTakes) {
+TEST(Numbers, AreReadIfStrtodReadsThem) {
   for (const char* const word :
        {"0", "-0", "+1.5", "1.", ".5", "-.5e1", "+.5E+1", "007", "1e5", "1E-05", "179.99999", "6.199242e-02",
         "1.7976931348623157e308", "4.9e-324", "1e-310", "0e999999999999999999999", "0.000000000000000000000000001",
@@ -187,7 +187,7 @@ struct Refused {
   Reason reason;
 };
 
-TEST(Numbers, WhatIsRefused) {
+TEST(Numbers, InvalidOnesAreRefusedWithAReason) {
   for (const auto& [word, reason] : {
            Refused{"1e999", Reason::out_of_range},
            Refused{"-1e309", Reason::out_of_range},

@@ -120,7 +120,7 @@ TEST(RoundTrip, AsciiIsThatOfTheWireFormat) {
   EXPECT_EQ(encoded(c, {Encoding::ascii, {}}), "DMC01\0CA720 0 -3 0 0 0 8.8 0 0 0\0"s);
 }
 
-TEST(RoundTrip, MatrixStandsInTheTextColumnAfterColumn) {
+TEST(RoundTrip, TheMatrixInTextIsColumnMajor) {
   CameraParams p;
   for (std::size_t i = 0; i < 16; ++i) p.matrix[i] = static_cast<double>(i);
   p.matrix[3] = p.matrix[7] = p.matrix[11] = 0;
@@ -152,7 +152,7 @@ TEST(RoundTrip, ImagesAreDatagramsWithoutHeader) {
   });
 }
 
-TEST(Record, OnlyTheTransformThatTheFormatSelectsCounts) {
+TEST(Record, OnlyTheTransformThatTheFormatSelectsIsCompared) {
   CameraParams a, b;
   b.euler.x = 1;
   EXPECT_EQ(a, b);

@@ -57,7 +57,7 @@ std::optional<T> decoded(const std::string& datagram, LayoutDetector& detector, 
   return std::get<T>(result->record);
 }
 
-TEST_P(FieldVectors, BinaryParamsAreTheFieldsBitForBit) {
+TEST_P(FieldVectors, BinaryParamsAreReadBitForBit) {
   for (const auto& line : params()) {
     LayoutDetector fresh;
     WireForm form;
@@ -72,7 +72,7 @@ TEST_P(FieldVectors, BinaryParamsAreTheFieldsBitForBit) {
   }
 }
 
-TEST_P(FieldVectors, AsciiParamsAreWhatTheFieldsReaderMakesOfThem) {
+TEST_P(FieldVectors, AsciiParamsAreReadLikeTheExistingReader) {
   LayoutDetector detector;
   for (const auto& line : params()) {
     WireForm form;
@@ -84,7 +84,7 @@ TEST_P(FieldVectors, AsciiParamsAreWhatTheFieldsReaderMakesOfThem) {
   EXPECT_FALSE(detector.seen());
 }
 
-TEST_P(FieldVectors, ConstantsAreTheFieldsBitForBit) {
+TEST_P(FieldVectors, ConstantsAreReadBitForBit) {
   for (const auto& line : constants()) {
     LayoutDetector detector;
     WireForm form;
@@ -120,7 +120,7 @@ TEST_P(FieldVectors, WrittenBinaryIsTheSameBytes) {
   }
 }
 
-TEST_P(FieldVectors, WrittenAsciiReadsBackAsTheVerySameFields) {
+TEST_P(FieldVectors, WrittenAsciiReadsBackExactly) {
   Buffer buffer;
   LayoutDetector detector;
   for (const auto& line : params()) {
