@@ -53,8 +53,8 @@ class CameraMarkers {
   const bridge::MarkerStatistics& statistics() const noexcept { return statistics_; }
 
  private:
-  void take_lens();
-  void take_focus(double focdist);
+  void update_lens();
+  void update_focus(double focdist);
   void stamp(const ::ros::Time&);
 
   double far_;

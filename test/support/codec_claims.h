@@ -32,7 +32,7 @@ inline bool all_finite(const wire::CameraConstants& c) {
 
 /// `record` written in `form` and read again with that layout given; nothing when either fails.
 template <class Record>
-std::optional<Record> there_and_back(const Record& record, wire::WireForm form) {
+std::optional<Record> round_trip(const Record& record, wire::WireForm form) {
   wire::Buffer buffer;
   const auto bytes = wire::encode(record, form, buffer);
   if (!bytes) return std::nullopt;
@@ -52,12 +52,12 @@ inline bool text_carries(const wire::CameraConstants&) { return true; }
 template <class Record>
 std::string broken_claim_of(const Record& record, wire::WireForm form) {
   if (!all_finite(record)) return "a number is not finite";
-  if (there_and_back(record, form) != record) return "not the same after writing and reading it again";
-  if (text_carries(record) && there_and_back(record, {wire::Encoding::ascii, {}}) != record) {
+  if (round_trip(record, form) != record) return "not the same after writing and reading it again";
+  if (text_carries(record) && round_trip(record, {wire::Encoding::ascii, {}}) != record) {
     return "not the same through text";
   }
   const wire::Layout widest{wire::Generation::identified, wire::Abi::lp64, wire::ByteOrder::big};
-  if (there_and_back(record, {wire::Encoding::binary, widest}) != record) return "not the same through binary";
+  if (round_trip(record, {wire::Encoding::binary, widest}) != record) return "not the same through binary";
   return {};
 }
 

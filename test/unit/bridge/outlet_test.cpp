@@ -11,9 +11,9 @@
 
 #include <gmock/gmock.h>
 
+#include "controlled_sink.h"
 #include "deadline.h"
 #include "error_of.h"
-#include "gated_sink.h"
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "udp.h"
@@ -23,46 +23,46 @@ namespace {
 
 using test::constants;
 using test::endpoint_of;
-using test::Gate;
 using test::params;
+using test::SinkControl;
 using transport::Blocking;
 
-/// Opens gates when a test ends, also by a failure: an outlet that is destroyed waits for its sink. Declared after the
-/// outlets, it goes before them.
+/// Opens controls when a test ends, also by a failure: an outlet that is destroyed waits for its sink. Declared after
+/// the outlets, it goes before them.
 class OpensAtEnd {
  public:
-  explicit OpensAtEnd(std::vector<Gate*> gates) : gates_(std::move(gates)) {}
+  explicit OpensAtEnd(std::vector<SinkControl*> controls) : controls_(std::move(controls)) {}
   ~OpensAtEnd() {
-    for (auto* gate : gates_) gate->open();
+    for (auto* control : controls_) control->open();
   }
   OpensAtEnd(const OpensAtEnd&) = delete;
   OpensAtEnd& operator=(const OpensAtEnd&) = delete;
 
  private:
-  const std::vector<Gate*> gates_;
+  const std::vector<SinkControl*> controls_;
 };
 
 /// Of a sink that blocks from its first write on: one record is with it, the others wait.
 template <typename Use>
-void with_blocked(Gate& gate, Outlet& outlet, const Use& use) {
+void with_blocked(SinkControl& control, Outlet& outlet, const Use& use) {
   outlet.write(constants());
-  ASSERT_TRUE(gate.is_blocking());
+  ASSERT_TRUE(control.is_blocking());
   use();
 }
 
 TEST(Outlet, ASinkThatNeverBlocksIsWrittenInTheCallersThread) {
-  Gate gate;
-  gate.open();
-  Outlet outlet(endpoint_of(gate), {});
+  SinkControl control;
+  control.open();
+  Outlet outlet(endpoint_of(control), {});
   outlet.write(params(1));
-  EXPECT_EQ(gate.params().size(), 1u);
+  EXPECT_EQ(control.params().size(), 1u);
   EXPECT_FALSE(outlet.queue());
   EXPECT_EQ(outlet.statistics().sent.params, 1u);
 }
 
 TEST(Outlet, ABlockingSinkDoesNotSlowDownOthers) {
   constexpr std::uint64_t sets = 5000;
-  Gate live, segment, take;
+  SinkControl live, segment, take;
   live.open();
   Outlet to_live(endpoint_of(live), {});
   Outlet to_segment(endpoint_of(segment, Blocking::attaching), {});
@@ -83,15 +83,15 @@ TEST(Outlet, ABlockingSinkDoesNotSlowDownOthers) {
 
 TEST(Outlet, AttachingDropsTheOldestSetsAndCountsThem) {
   constexpr std::uint64_t sets = 500;
-  Gate gate;
+  SinkControl control;
   std::uint64_t losses = 0;
   OutletOptions options;
   options.listener = [&losses](const Loss& loss) {
     losses += std::get<OutletReason>(loss.cause) == OutletReason::outdated;
   };
-  Outlet outlet(endpoint_of(gate, Blocking::attaching), options);
-  const OpensAtEnd guard({&gate});
-  with_blocked(gate, outlet, [&] {
+  Outlet outlet(endpoint_of(control, Blocking::attaching), options);
+  const OpensAtEnd guard({&control});
+  with_blocked(control, outlet, [&] {
     outlet.write(constants(1920));
     for (std::uint64_t counter = 1; counter <= sets; ++counter) outlet.write(params(counter));
   });
@@ -101,23 +101,23 @@ TEST(Outlet, AttachingDropsTheOldestSetsAndCountsThem) {
   EXPECT_EQ(queue->drops, losses);
   EXPECT_FALSE(queue->failed);
   const auto queued = queue->queued;
-  gate.open();
+  control.open();
   ASSERT_TRUE(outlet.close());
-  EXPECT_EQ(gate.constants(), (std::vector<wire::CameraConstants>{constants(), constants(1920)})) << "state is kept";
-  const auto written = gate.params();
+  EXPECT_EQ(control.constants(), (std::vector<wire::CameraConstants>{constants(), constants(1920)})) << "state is kept";
+  const auto written = control.params();
   ASSERT_EQ(written.size(), sets - losses);
   EXPECT_EQ(written.size() + 1, queued);
   for (std::size_t i = 0; i < written.size(); ++i) EXPECT_EQ(written[i].counter, losses + i + 1);
 }
 
 TEST(Outlet, ConstantsOfTooManyIdsThatTheQueueCannotKeepAreReported) {
-  Gate gate;
+  SinkControl control;
   std::vector<OutletReason> reasons;
   OutletOptions options;
   options.listener = [&reasons](const Loss& loss) { reasons.push_back(std::get<OutletReason>(loss.cause)); };
-  Outlet outlet(endpoint_of(gate, Blocking::attaching), options);
-  const OpensAtEnd guard({&gate});
-  with_blocked(gate, outlet, [&] {
+  Outlet outlet(endpoint_of(control, Blocking::attaching), options);
+  const OpensAtEnd guard({&control});
+  with_blocked(control, outlet, [&] {
     std::uint32_t id = 0;
     while (outlet.queue()->drops == 0) {
       ASSERT_LT(id, 10'000u);
@@ -129,28 +129,28 @@ TEST(Outlet, ConstantsOfTooManyIdsThatTheQueueCannotKeepAreReported) {
 }
 
 TEST(Outlet, ARecordingThatCannotKeepUpEndsAndKeepsItsRecords) {
-  Gate gate;
+  SinkControl control;
   std::uint64_t losses = 0;
   OutletOptions options;
   options.listener = [&losses](const Loss& loss) {
     losses += std::get<OutletReason>(loss.cause) == OutletReason::too_slow;
   };
-  Outlet outlet(endpoint_of(gate, Blocking::storage), options);
-  const OpensAtEnd guard({&gate});
+  Outlet outlet(endpoint_of(control, Blocking::storage), options);
+  const OpensAtEnd guard({&control});
   std::uint64_t counter = 0;
-  with_blocked(gate, outlet, [&] {
+  with_blocked(control, outlet, [&] {
     while (!outlet.queue()->failed) {
       ASSERT_LT(counter, 1'000'000u);
       outlet.write(params(++counter));
     }
   });
   EXPECT_GT(counter, 9000u) << "three minutes of 50 Hz";
-  gate.open();
-  ASSERT_TRUE(gate.has_written(counter));
+  control.open();
+  ASSERT_TRUE(control.has_written(counter));
   outlet.write(params(++counter));
   ASSERT_TRUE(outlet.close());
-  EXPECT_TRUE(gate.is_closed());
-  const auto written = gate.params();
+  EXPECT_TRUE(control.is_closed());
+  const auto written = control.params();
   EXPECT_EQ(written.size(), counter - 2) << "all before the one that had no room, and none after it";
   for (std::size_t i = 0; i < written.size(); ++i) EXPECT_EQ(written[i].counter, i + 1);
   EXPECT_EQ(outlet.queue()->drops, 2u);
@@ -160,87 +160,87 @@ TEST(Outlet, ARecordingThatCannotKeepUpEndsAndKeepsItsRecords) {
 TEST(Outlet, IfTheCallerCanWaitNothingIsLost) {
   constexpr std::uint64_t sets = 15'000;
   for (const auto blocking : {Blocking::attaching, Blocking::storage}) {
-    Gate gate;
-    gate.open();
+    SinkControl control;
+    control.open();
     OutletOptions options;
     options.may_wait = [] { return true; };
     options.listener = [](const Loss&) { FAIL(); };
-    Outlet outlet(endpoint_of(gate, blocking), options);
+    Outlet outlet(endpoint_of(control, blocking), options);
     for (std::uint64_t counter = 1; counter <= sets; ++counter) outlet.write(params(counter));
     ASSERT_TRUE(outlet.close());
-    EXPECT_EQ(gate.params().size(), sets);
+    EXPECT_EQ(control.params().size(), sets);
     EXPECT_EQ(outlet.queue()->drops, 0u);
   }
 }
 
 TEST(Outlet, ClosingWritesWhatIsQueuedThenEndsTheSink) {
-  Gate gate;
-  Outlet outlet(endpoint_of(gate, Blocking::storage), {});
-  const OpensAtEnd guard({&gate});
-  with_blocked(gate, outlet, [&] {
+  SinkControl control;
+  Outlet outlet(endpoint_of(control, Blocking::storage), {});
+  const OpensAtEnd guard({&control});
+  with_blocked(control, outlet, [&] {
     for (std::uint64_t counter = 1; counter <= 100; ++counter) outlet.write(params(counter));
   });
-  EXPECT_FALSE(gate.is_closed());
-  gate.open();
+  EXPECT_FALSE(control.is_closed());
+  control.open();
   EXPECT_TRUE(outlet.close());
-  EXPECT_EQ(gate.params().size(), 100u);
-  EXPECT_TRUE(gate.is_closed());
+  EXPECT_EQ(control.params().size(), 100u);
+  EXPECT_TRUE(control.is_closed());
   EXPECT_TRUE(outlet.close()) << "again";
   outlet.write(params(101));
-  EXPECT_EQ(gate.params().size(), 100u);
+  EXPECT_EQ(control.params().size(), 100u);
   EXPECT_EQ(outlet.statistics().last_fault.reason, transport::SinkReason::closed);
 }
 
 TEST(Outlet, DestroyingItClosesItLikewise) {
-  Gate gate;
+  SinkControl control;
   {
-    Outlet outlet(endpoint_of(gate, Blocking::storage), {});
-    const OpensAtEnd guard({&gate});
-    with_blocked(gate, outlet, [&] { outlet.write(params(1)); });
+    Outlet outlet(endpoint_of(control, Blocking::storage), {});
+    const OpensAtEnd guard({&control});
+    with_blocked(control, outlet, [&] { outlet.write(params(1)); });
   }
-  EXPECT_EQ(gate.params().size(), 1u);
-  EXPECT_TRUE(gate.is_closed());
+  EXPECT_EQ(control.params().size(), 1u);
+  EXPECT_TRUE(control.is_closed());
 }
 
 TEST(Outlet, IsOpenedInItsOwnThreadAndNothingIsLostMeanwhile) {
-  Gate gate;
-  gate.open();
-  gate.block_opening();
-  Outlet outlet(endpoint_of(gate, Blocking::storage), {});
-  ASSERT_TRUE(gate.was_tried(1));
+  SinkControl control;
+  control.open();
+  control.block_opening();
+  Outlet outlet(endpoint_of(control, Blocking::storage), {});
+  ASSERT_TRUE(control.was_tried(1));
   outlet.write(constants());
   for (std::uint64_t counter = 1; counter <= 100; ++counter) outlet.write(params(counter));
   const auto opening = outlet.state();
   EXPECT_FALSE(opening.is_open);
   EXPECT_NE(opening.busy_since, 0);
   EXPECT_EQ(outlet.queue()->queued, 101u);
-  gate.permit_opening();
-  ASSERT_TRUE(gate.has_written(101));
+  control.permit_opening();
+  ASSERT_TRUE(control.has_written(101));
   ASSERT_TRUE(outlet.close());
   EXPECT_TRUE(outlet.state().is_open);
   EXPECT_EQ(outlet.state().busy_since, 0);
 }
 
 TEST(Outlet, OpeningIsRetried) {
-  Gate gate;
-  gate.open();
-  gate.set_opening_error("take.trk: it exists");
-  Outlet outlet(endpoint_of(gate, Blocking::storage), {});
-  ASSERT_TRUE(gate.was_tried(2)) << "though nothing is written";
+  SinkControl control;
+  control.open();
+  control.set_opening_error("take.trk: it exists");
+  Outlet outlet(endpoint_of(control, Blocking::storage), {});
+  ASSERT_TRUE(control.was_tried(2)) << "though nothing is written";
   EXPECT_EQ(outlet.state().cannot_open, "take.trk: it exists");
   EXPECT_FALSE(outlet.state().is_open);
-  gate.set_opening_error("");
+  control.set_opening_error("");
   EXPECT_TRUE(test::becomes_true([&] { return outlet.state().is_open; }));
   EXPECT_EQ(outlet.state().cannot_open, "");
 }
 
 TEST(Outlet, RefusedWritesAreCountedAndOpeningIsNotRetriedForEveryRecord) {
-  Gate gate;
-  gate.open();
-  gate.set_opening_error("slot 7: nobody knows it");
-  gate.set_fault(transport::SinkFault{transport::SinkReason::gone});
-  Outlet outlet(endpoint_of(gate, Blocking::attaching), {});
-  ASSERT_TRUE(gate.was_tried(1));
+  SinkControl control;
+  control.open();
+  control.set_opening_error("slot 7: nobody knows it");
+  control.set_fault(transport::SinkFault{transport::SinkReason::gone});
+  Outlet outlet(endpoint_of(control, Blocking::attaching), {});
+  ASSERT_TRUE(control.was_tried(1));
   for (std::uint64_t counter = 1; counter <= 50; ++counter) outlet.write(params(counter));
   ASSERT_TRUE(outlet.close());
   EXPECT_EQ(outlet.statistics().failed_sets, 50u);
@@ -248,12 +248,12 @@ TEST(Outlet, RefusedWritesAreCountedAndOpeningIsNotRetriedForEveryRecord) {
 }
 
 TEST(Outlet, WithMustOpenTheReasonIsThrown) {
-  Gate gate;
-  gate.set_opening_error("take.trk: it exists");
+  SinkControl control;
+  control.set_opening_error("take.trk: it exists");
   OutletOptions options;
   options.must_open = true;
   EXPECT_EQ(test::error_of<transport::TransportError>(
-                [&] { const Outlet outlet(endpoint_of(gate, Blocking::storage), options); }),
+                [&] { const Outlet outlet(endpoint_of(control, Blocking::storage), options); }),
             "take.trk: it exists");
 }
 
@@ -261,9 +261,9 @@ TEST(Outlet, WithMustOpenTheReasonIsThrown) {
 class StuckOutlet : public testing::Test {
  protected:
   ~StuckOutlet() override {
-    gate->open();
-    gate->permit_opening();
-    EXPECT_TRUE(gate->closes()) << "what was left to itself goes on";
+    control->open();
+    control->permit_opening();
+    EXPECT_TRUE(control->closes()) << "what was left to itself goes on";
   }
   static std::chrono::nanoseconds time_of(const std::function<void()>& act) {
     const auto begin = std::chrono::steady_clock::now();
@@ -271,7 +271,7 @@ class StuckOutlet : public testing::Test {
     return std::chrono::steady_clock::now() - begin;
   }
 
-  const std::shared_ptr<Gate> gate = std::make_shared<Gate>();
+  const std::shared_ptr<SinkControl> control = std::make_shared<SinkControl>();
 };
 
 TEST_F(StuckOutlet, IsAbandonedAndReportsWhatIsMissing) {
@@ -279,9 +279,9 @@ TEST_F(StuckOutlet, IsAbandonedAndReportsWhatIsMissing) {
   {
     OutletOptions options;
     options.listener = [&losses](const Loss&) { ++losses; };
-    Outlet outlet(endpoint_of(gate, Blocking::storage), options);
+    Outlet outlet(endpoint_of(control, Blocking::storage), options);
     outlet.write(constants());
-    ASSERT_TRUE(gate->is_blocking());
+    ASSERT_TRUE(control->is_blocking());
     for (std::uint64_t counter = 1; counter <= 7; ++counter) outlet.write(params(counter));
     const auto closed = outlet.close();
     ASSERT_FALSE(closed);
@@ -291,29 +291,29 @@ TEST_F(StuckOutlet, IsAbandonedAndReportsWhatIsMissing) {
     EXPECT_TRUE(outlet.close()) << "again";
     EXPECT_EQ(losses, 0) << "nobody is called any more";
   }
-  gate->set_fault(transport::SinkFault{transport::SinkReason::system, {}, ENOSPC});
-  gate->open();
-  ASSERT_TRUE(gate->closes());
+  control->set_fault(transport::SinkFault{transport::SinkReason::system, {}, ENOSPC});
+  control->open();
+  ASSERT_TRUE(control->closes());
   EXPECT_EQ(losses, 0) << "nobody is called any more";
 }
 
 TEST_F(StuckOutlet, ContinuesInTheBackgroundWhenItCan) {
   {
-    Outlet outlet(endpoint_of(gate, Blocking::storage), {});
+    Outlet outlet(endpoint_of(control, Blocking::storage), {});
     outlet.write(constants());
-    ASSERT_TRUE(gate->is_blocking());
+    ASSERT_TRUE(control->is_blocking());
     for (std::uint64_t counter = 1; counter <= 7; ++counter) outlet.write(params(counter));
   }
-  EXPECT_EQ(gate->count(), 0u);
-  gate->open();
-  ASSERT_TRUE(gate->closes());
-  EXPECT_EQ(gate->count(), 8u);
+  EXPECT_EQ(control->count(), 0u);
+  control->open();
+  ASSERT_TRUE(control->closes());
+  EXPECT_EQ(control->count(), 8u);
 }
 
 TEST_F(StuckOutlet, ASinkThatIsBeingOpenedIsAbandonedLikewise) {
-  gate->block_opening();
-  Outlet outlet(endpoint_of(gate, Blocking::storage), {});
-  ASSERT_TRUE(gate->was_tried(1));
+  control->block_opening();
+  Outlet outlet(endpoint_of(control, Blocking::storage), {});
+  ASSERT_TRUE(control->was_tried(1));
   outlet.write(params(1));
   EXPECT_EQ(outlet.close().error().reason, transport::SinkReason::no_answer);
   EXPECT_EQ(outlet.unwritten(), 1u);
@@ -321,52 +321,52 @@ TEST_F(StuckOutlet, ASinkThatIsBeingOpenedIsAbandonedLikewise) {
 
 TEST_F(StuckOutlet, SeveralSinksAreWaitedForAtTheSameTime) {
   constexpr int count = 6;
-  std::vector<std::shared_ptr<Gate>> gates;
+  std::vector<std::shared_ptr<SinkControl>> controls;
   std::vector<std::unique_ptr<Outlet>> outlets;
   for (int i = 0; i < count; ++i) {
-    gates.push_back(std::make_shared<Gate>());
-    outlets.push_back(std::make_unique<Outlet>(endpoint_of(gates.back(), Blocking::storage), OutletOptions{}));
+    controls.push_back(std::make_shared<SinkControl>());
+    outlets.push_back(std::make_unique<Outlet>(endpoint_of(controls.back(), Blocking::storage), OutletOptions{}));
     outlets.back()->write(params(1));
-    ASSERT_TRUE(gates.back()->is_blocking());
+    ASSERT_TRUE(controls.back()->is_blocking());
   }
   EXPECT_LT(time_of([&] {
               for (const auto& outlet : outlets) outlet->finish();
               for (const auto& outlet : outlets) EXPECT_FALSE(outlet->close());
             }),
             (count - 1) * Outlet::patience);
-  for (const auto& one : gates) {
+  for (const auto& one : controls) {
     one->open();
     EXPECT_TRUE(one->closes());
   }
-  gate->close();
+  control->close();
 }
 
 TEST_F(StuckOutlet, ASlowSinkGetsTheTimeItNeeds) {
-  gate->open();
-  gate->set_delay(Outlet::patience / 5);
-  Outlet outlet(endpoint_of(gate, Blocking::storage), {});
+  control->open();
+  control->set_delay(Outlet::patience / 5);
+  Outlet outlet(endpoint_of(control, Blocking::storage), {});
   for (std::uint64_t counter = 1; counter <= 15; ++counter) outlet.write(params(counter));
   EXPECT_TRUE(outlet.close());
-  EXPECT_EQ(gate->count(), 15u);
+  EXPECT_EQ(control->count(), 15u);
 }
 
 TEST_F(StuckOutlet, ASegmentIsNotWaitedForAsLong) {
-  gate->open();
-  gate->set_delay(Outlet::patience / 5);
-  Outlet outlet(endpoint_of(gate, Blocking::attaching), {});
+  control->open();
+  control->set_delay(Outlet::patience / 5);
+  Outlet outlet(endpoint_of(control, Blocking::attaching), {});
   for (std::uint64_t counter = 1; counter <= 60; ++counter) outlet.write(params(counter));
   EXPECT_FALSE(outlet.close());
-  EXPECT_LT(gate->count(), 60u);
-  gate->set_delay(std::chrono::milliseconds(0));
+  EXPECT_LT(control->count(), 60u);
+  control->set_delay(std::chrono::milliseconds(0));
 }
 
 TEST_F(StuckOutlet, WithMayWaitASinkIsWaitedForAsLongAsAllowed) {
   std::atomic<bool> may_wait{true};
   OutletOptions options;
   options.may_wait = [&may_wait] { return may_wait.load(); };
-  Outlet outlet(endpoint_of(gate, Blocking::storage), options);
+  Outlet outlet(endpoint_of(control, Blocking::storage), options);
   outlet.write(params(1));
-  ASSERT_TRUE(gate->is_blocking());
+  ASSERT_TRUE(control->is_blocking());
   auto closed = std::async(std::launch::async, [&outlet] { return outlet.close(); });
   EXPECT_EQ(closed.wait_for(3 * Outlet::patience), std::future_status::timeout);
   may_wait = false;
@@ -393,13 +393,13 @@ TEST(Outlet, CloseReturnsTheResultOfTheSink) {
 }
 
 TEST(Outlet, AFaultInItsOwnThreadIsReportedAndCounted) {
-  Gate gate;
-  gate.open();
-  gate.set_fault(transport::SinkFault{transport::SinkReason::system, {}, ENOSPC});
+  SinkControl control;
+  control.open();
+  control.set_fault(transport::SinkFault{transport::SinkReason::system, {}, ENOSPC});
   std::vector<Loss> losses;
   OutletOptions options;
   options.listener = [&losses](const Loss& loss) { losses.push_back(loss); };
-  Outlet outlet(endpoint_of(gate, Blocking::storage), options);
+  Outlet outlet(endpoint_of(control, Blocking::storage), options);
   outlet.write(params(1, 7));
   outlet.write(params(2, 7));
   ASSERT_TRUE(outlet.close());
@@ -413,19 +413,19 @@ TEST(Outlet, AFaultInItsOwnThreadIsReportedAndCounted) {
 }
 
 TEST(Outlet, OptionsThatTheEndpointDoesNotSetHaveDefaults) {
-  Gate gate;
+  SinkControl control;
   transport::SinkForm given;
   given.format = wire::euler | wire::field_of_view;
   OutletOptions options;
   options.defaults.format = wire::euler;
   options.defaults.sends_id = false;
   options.defaults.id = 5;
-  const Outlet outlet(endpoint_of(gate, Blocking::never, given), options);
+  const Outlet outlet(endpoint_of(control, Blocking::never, given), options);
   EXPECT_EQ(outlet.form().format, given.format);
   EXPECT_TRUE(outlet.form().sends_id) << "that goes with the format";
   EXPECT_EQ(outlet.form().id, 5u);
-  EXPECT_EQ(outlet.url(), "test:gate");
-  EXPECT_EQ(outlet.name(), "gate");
+  EXPECT_EQ(outlet.url(), "test:control");
+  EXPECT_EQ(outlet.name(), "control");
 }
 
 }  // namespace

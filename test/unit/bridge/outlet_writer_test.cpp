@@ -7,8 +7,8 @@
 
 #include <gmock/gmock.h>
 
+#include "controlled_sink.h"
 #include "endpoints/presets.h"
-#include "gated_sink.h"
 #include "trk_bridge/wire/format.h"
 #include "udp.h"
 
@@ -39,13 +39,13 @@ transport::SinkForm form_of_preset(const std::string& name) {
 
 class OutletWriterTest : public testing::Test {
  protected:
-  OutletWriterTest() { gate.open(); }
+  OutletWriterTest() { control.open(); }
   OutletWriter writer(const transport::SinkForm& form = {}, Feed feed = Feed::passed_on) {
-    return {std::make_unique<test::GatedSink>(gate, "gate"), form, feed,
+    return {std::make_unique<test::ControlledSink>(control, "control"), form, feed,
             [this](const Loss& loss) { losses.push_back(loss); }};
   }
 
-  test::Gate gate;
+  test::SinkControl control;
   std::vector<Loss> losses;
 };
 
@@ -57,17 +57,17 @@ TEST_F(OutletWriterTest, WithoutAFormatEveryNumberStays) {
   outlet.write(constants(720, 3));
   outlet.write(odd);
   outlet.write(constants(-1, 3));
-  EXPECT_THAT(gate.records(), ElementsAre(constants(720, 3), odd, constants(-1, 3)));
+  EXPECT_THAT(control.records(), ElementsAre(constants(720, 3), odd, constants(-1, 3)));
   outlet.write(constants(720, 3));
-  EXPECT_EQ(gate.records().size(), 4u) << "the receiver has others since";
+  EXPECT_EQ(control.records().size(), 4u) << "the receiver has others since";
   EXPECT_THAT(losses, IsEmpty());
 }
 
 TEST_F(OutletWriterTest, OneFeedIsRightForReceiversOfTwoFormats) {
-  test::Gate other;
+  test::SinkControl other;
   other.open();
   auto aximmetry = writer(form_of_preset("aximmetry"), Feed::one_camera);
-  OutletWriter pixotope(std::make_unique<test::GatedSink>(other, "other"), form_of_preset("pixotope"),
+  OutletWriter pixotope(std::make_unique<test::ControlledSink>(other, "other"), form_of_preset("pixotope"),
                         Feed::one_camera);
   auto wide = constants(720, 7);
   wide.blank_left = wide.blank_right = 10;
@@ -77,11 +77,11 @@ TEST_F(OutletWriterTest, OneFeedIsRightForReceiversOfTwoFormats) {
     one->write(wide);
     one->write(set);
   }
-  ASSERT_EQ(gate.params().size(), 1u);
+  ASSERT_EQ(control.params().size(), 1u);
   ASSERT_EQ(other.params().size(), 1u);
   EXPECT_EQ(other.params()[0], set) << "already in its format: the very doubles";
-  const auto turned = gate.params()[0];
-  const auto sent_constants = gate.constants()[0], plain_constants = other.constants()[0];
+  const auto turned = control.params()[0];
+  const auto sent_constants = control.constants()[0], plain_constants = other.constants()[0];
   EXPECT_EQ(turned.format,
             std::uint32_t{wire::camera_y_up | wire::studio_y_up | wire::field_of_view | wire::ignore_blank});
   // y-up studio: x, z, -y of the z-up one.
@@ -106,7 +106,7 @@ TEST_F(OutletWriterTest, TheIdOfTheFormIsUsedForParamsAndConstants) {
   auto outlet = writer(form);
   outlet.write(constants(720, 9));
   outlet.write(params(1, 7));
-  EXPECT_THAT(gate.records(), ElementsAre(constants(720, 3), params(1, 3)));
+  EXPECT_THAT(control.records(), ElementsAre(constants(720, 3), params(1, 3)));
   EXPECT_EQ(outlet.statistics().last_id, 3u);
 }
 
@@ -116,9 +116,9 @@ TEST_F(OutletWriterTest, AReceiverWithoutIdsIsSentNone) {
   auto outlet = writer(form);
   outlet.write(constants(720, 4));
   outlet.write(params(1, 7));
-  ASSERT_EQ(gate.records().size(), 2u);
-  EXPECT_EQ(gate.constants()[0].id, 0u);
-  EXPECT_EQ(gate.params()[0].id, 0u);
+  ASSERT_EQ(control.records().size(), 2u);
+  EXPECT_EQ(control.constants()[0].id, 0u);
+  EXPECT_EQ(control.params()[0].id, 0u);
   EXPECT_EQ(outlet.statistics().left_out_id, 4u);
 }
 
@@ -128,46 +128,46 @@ TEST_F(OutletWriterTest, OnlyNewConstantsAreSent) {
   outlet.write(constants());
   outlet.write(params(1));
   outlet.write(constants());
-  EXPECT_EQ(gate.constants().size(), 1u);
+  EXPECT_EQ(control.constants().size(), 1u);
   outlet.write(constants(1920));
-  EXPECT_EQ(gate.constants().size(), 2u);
+  EXPECT_EQ(control.constants().size(), 2u);
 }
 
 TEST_F(OutletWriterTest, ConstantsOfOneCameraAreUsedForAllIdsAndSentAgainWhenTheIdChanges) {
   auto outlet = writer(form_of("euler field_of_view"), Feed::one_camera);
   outlet.write(constants(720, 7));
   outlet.write(params(1, 8));
-  EXPECT_EQ(gate.params().size(), 1u);
+  EXPECT_EQ(control.params().size(), 1u);
   outlet.write(constants(720, 8));
   outlet.write(constants(720, 7));
-  EXPECT_THAT(gate.constants(), ElementsAre(constants(720, 7), constants(720, 8), constants(720, 7)));
+  EXPECT_THAT(control.constants(), ElementsAre(constants(720, 7), constants(720, 8), constants(720, 7)));
 }
 
 TEST_F(OutletWriterTest, ConstantsAreKeptById) {
   auto outlet = writer(form_of("euler field_of_view"));
   outlet.write(constants(720, 7));
   outlet.write(params(1, 8));
-  EXPECT_THAT(gate.params(), IsEmpty()) << "none for 8";
+  EXPECT_THAT(control.params(), IsEmpty()) << "none for 8";
   EXPECT_EQ(outlet.statistics().withheld, 1u);
   EXPECT_EQ(outlet.statistics().withhold_reason, CameraReason::constants_needed);
   ASSERT_EQ(losses.size(), 1u);
   EXPECT_EQ(losses[0].id, 8u);
   EXPECT_EQ(std::get<CameraReason>(losses[0].cause), CameraReason::constants_needed);
   outlet.write(params(1, 7));
-  EXPECT_EQ(gate.params().size(), 1u);
+  EXPECT_EQ(control.params().size(), 1u);
 }
 
 TEST_F(OutletWriterTest, TheNumberOfIdsIsLimited) {
   auto outlet = writer();
   for (std::uint32_t id = 0; id < 300; ++id) outlet.write(constants(720, id));
-  EXPECT_EQ(gate.constants().size(), OutletWriter::most_ids);
+  EXPECT_EQ(control.constants().size(), OutletWriter::most_ids);
   EXPECT_EQ(outlet.statistics().refused_constants, 300 - OutletWriter::most_ids);
   ASSERT_EQ(losses.size(), 300 - OutletWriter::most_ids);
   EXPECT_EQ(std::get<OutletReason>(losses[0].cause), OutletReason::too_many_ids);
   outlet.write(constants(1920, 3));
-  EXPECT_EQ(gate.constants().back().image_width, 1920) << "those that are known go on";
+  EXPECT_EQ(control.constants().back().image_width, 1920) << "those that are known go on";
   outlet.write(params(1, 299));
-  EXPECT_EQ(gate.params().size(), 1u);
+  EXPECT_EQ(control.params().size(), 1u);
 }
 
 TEST_F(OutletWriterTest, InvalidConstantsInvalidateEarlierOnes) {
@@ -175,19 +175,19 @@ TEST_F(OutletWriterTest, InvalidConstantsInvalidateEarlierOnes) {
   outlet.write(constants(720));
   outlet.write(constants(-1));
   outlet.write(params(1));
-  EXPECT_THAT(gate.records(), ElementsAre(constants(720)));
+  EXPECT_THAT(control.records(), ElementsAre(constants(720)));
   ASSERT_EQ(losses.size(), 2u);
   EXPECT_EQ(std::get<CameraReason>(losses[0].cause), CameraReason::bad_constants);
   EXPECT_EQ(std::get<CameraReason>(losses[1].cause), CameraReason::constants_needed);
   outlet.write(constants(720));
   outlet.write(params(2));
-  EXPECT_EQ(gate.constants().size(), 2u);
-  EXPECT_EQ(gate.params().size(), 1u);
+  EXPECT_EQ(control.constants().size(), 2u);
+  EXPECT_EQ(control.params().size(), 1u);
 }
 
 TEST_F(OutletWriterTest, ConstantsThatCouldNotBeWrittenAreRetriedBeforeEverySet) {
   auto outlet = writer(form_of("euler"));
-  gate.set_fault(SinkFault{SinkReason::system, {}, ENOSPC});
+  control.set_fault(SinkFault{SinkReason::system, {}, ENOSPC});
   outlet.write(constants());
   EXPECT_EQ(losses.size(), 1u);
   outlet.write(params(1));
@@ -197,10 +197,10 @@ TEST_F(OutletWriterTest, ConstantsThatCouldNotBeWrittenAreRetriedBeforeEverySet)
   EXPECT_EQ(losses.size(), 4u);
   EXPECT_TRUE(outlet.statistics().fails);
   EXPECT_EQ(outlet.statistics().last_fault.error_number, ENOSPC);
-  gate.set_fault(std::nullopt);
+  control.set_fault(std::nullopt);
   outlet.write(params(3));
   outlet.write(params(4));
-  EXPECT_THAT(gate.records(), ElementsAre(constants(), params(3), params(4)));
+  EXPECT_THAT(control.records(), ElementsAre(constants(), params(3), params(4)));
   EXPECT_FALSE(outlet.statistics().fails);
   EXPECT_EQ(outlet.statistics().failed_sets, 2u);
   EXPECT_GT(outlet.statistics().last_success, outlet.statistics().last_failure);
@@ -212,19 +212,19 @@ TEST_F(OutletWriterTest, InvalidConstantsEndTheRetriesOfRefusedOnes) {
     outlet.write(constants(720));
     outlet.write(params(1));
     // As a file has it: it holds one set of constants.
-    gate.set_fault(SinkFault{SinkReason::constants_changed});
+    control.set_fault(SinkFault{SinkReason::constants_changed});
     outlet.write(constants(1920));
     outlet.write(params(2));
     outlet.write(wire::CameraConstants{});
-    gate.set_fault(std::nullopt);
-    const auto before = gate.count();
+    control.set_fault(std::nullopt);
+    const auto before = control.count();
     outlet.write(params(3));
-    EXPECT_EQ(gate.count(), before + 1) << "no constants before it";
-    EXPECT_EQ(gate.params().back(), params(3));
+    EXPECT_EQ(control.count(), before + 1) << "no constants before it";
+    EXPECT_EQ(control.params().back(), params(3));
     EXPECT_FALSE(outlet.statistics().fails);
     EXPECT_EQ(outlet.statistics().failed_sets, 1u);
     outlet.write(constants(1920));
-    EXPECT_EQ(gate.constants().back(), constants(1920)) << "new again";
+    EXPECT_EQ(control.constants().back(), constants(1920)) << "new again";
   }
 }
 
@@ -244,10 +244,10 @@ TEST_F(OutletWriterTest, InvalidCamerasAreDroppedFromTheFeedOfOneCamera) {
   strict.write(doubled);
   EXPECT_EQ(strict.statistics().drop_reason, CameraReason::not_a_rotation);
   EXPECT_EQ(strict.statistics().dropped, 3u);
-  EXPECT_THAT(gate.records(), IsEmpty());
+  EXPECT_THAT(control.records(), IsEmpty());
   auto plain = writer();
   plain.write(doubled);
-  EXPECT_THAT(gate.records(), ElementsAre(doubled));
+  EXPECT_THAT(control.records(), ElementsAre(doubled));
 }
 
 }  // namespace

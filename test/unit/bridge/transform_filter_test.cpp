@@ -13,22 +13,22 @@ constexpr std::int64_t field = second / 50;
 constexpr std::int64_t start = 1'700'000'000 * second;
 
 /// The poses of `camera` in `studio`, over `rail`, as they come at 50 Hz.
-class Gate : public ::testing::Test {
+class TransformFilterTest : public ::testing::Test {
  protected:
   using Verdict = TransformFilter::Verdict;
 
-  Gate() { gate.add_static("studio", "rail"); }
+  TransformFilterTest() { filter.add_static("studio", "rail"); }
 
   Verdict judge(const std::string& child, std::int64_t stamp) {
     const std::string parent = child == "camera" ? "rail" : "elsewhere";
-    return gate.judge({parent, child, stamp, "/driver"}, start + now, now);
+    return filter.judge({parent, child, stamp, "/driver"}, start + now, now);
   }
   /// One field later, a transform whose clock is off by `offset`.
   Verdict next(std::int64_t offset = 0, const std::string& child = "camera") {
     now += field;
     return judge(child, start + now + offset);
   }
-  /// How many fields in a row pass before the gate does anything else than to refuse.
+  /// How many fields in a row pass before the filter does anything else than to refuse.
   int refused_in_a_row(std::int64_t offset, const std::string& child = "camera", int most = 1000) {
     for (int count = 0; count < most; ++count) {
       if (next(offset, child) != Verdict::refuse) return count;
@@ -36,46 +36,46 @@ class Gate : public ::testing::Test {
     return most;
   }
 
-  TransformFilter gate{"studio", "camera"};
+  TransformFilter filter{"studio", "camera"};
   std::int64_t now = 0;  // ns of the steady clock; ROS time began at `start`
 };
 
-TEST_F(Gate, TransformsInTimeAreUsed) {
+TEST_F(TransformFilterTest, TransformsInTimeAreUsed) {
   for (int n = 0; n < 100; ++n) EXPECT_EQ(next(), Verdict::use);
   EXPECT_EQ(judge("camera", start + now - second / 2), Verdict::use) << "late";
   EXPECT_EQ(judge("camera", start + now + second / 2), Verdict::use) << "dated ahead by its publisher";
-  EXPECT_EQ(gate.statistics().refused, 0u);
+  EXPECT_EQ(filter.statistics().refused, 0u);
 }
 
-TEST_F(Gate, ATransformFarAheadIsRefused) {
+TEST_F(TransformFilterTest, ATransformFarAheadIsRefused) {
   for (int n = 0; n < 200; ++n) {
     EXPECT_EQ(next(), Verdict::use);
     EXPECT_EQ(judge("camera", start + 1'000'000 * second), Verdict::refuse);
   }
-  EXPECT_EQ(gate.statistics().refused, 200u);
-  EXPECT_EQ(gate.statistics().restarts, 0u);
-  EXPECT_THAT(describe(gate.statistics().last_refused),
+  EXPECT_EQ(filter.statistics().refused, 200u);
+  EXPECT_EQ(filter.statistics().restarts, 0u);
+  EXPECT_THAT(describe(filter.statistics().last_refused),
               AllOf(HasSubstr("frame camera from /driver are "), HasSubstr(" s ahead of ROS time")));
 }
 
-TEST_F(Gate, AClockThatIsSetIsFollowedWithinASecond) {
+TEST_F(TransformFilterTest, AClockThatIsSetIsFollowedWithinASecond) {
   for (const std::int64_t offset : {3600 * second, 0L, -60 * second, -63 * second, 1'000'000 * second, 0L}) {
-    const auto restarts = gate.statistics().restarts;
+    const auto restarts = filter.statistics().restarts;
     EXPECT_LE(refused_in_a_row(offset) * field, second / 2) << offset;
     for (int n = 0; n < 100; ++n) ASSERT_EQ(next(offset), Verdict::use) << offset << ", " << n;
-    EXPECT_EQ(gate.statistics().restarts, restarts + 1) << offset;
+    EXPECT_EQ(filter.statistics().restarts, restarts + 1) << offset;
   }
-  EXPECT_THAT(describe(gate.statistics().last_restart),
+  EXPECT_THAT(describe(filter.statistics().last_restart),
               HasSubstr("frame camera from /driver went back by 1000000.0 s"));
 }
 
-TEST_F(Gate, AClockThatIsAheadFromTheStartIsFollowed) {
+TEST_F(TransformFilterTest, AClockThatIsAheadFromTheStartIsFollowed) {
   EXPECT_LE(refused_in_a_row(3600 * second) * field, second / 2);
   for (int n = 0; n < 100; ++n) EXPECT_EQ(next(3600 * second), Verdict::use);
   EXPECT_EQ(judge("camera", start + now + 7200 * second), Verdict::refuse) << "ahead of that clock, too";
 }
 
-TEST_F(Gate, AllLinksOfOneClockStartOverOnce) {
+TEST_F(TransformFilterTest, AllLinksOfOneClockStartOverOnce) {
   TransformFilter chain{"studio", "camera"};
   const auto both = [&](std::int64_t offset) {
     now += field;
@@ -90,32 +90,33 @@ TEST_F(Gate, AllLinksOfOneClockStartOverOnce) {
   EXPECT_EQ(chain.statistics().restarts, 2u);
 }
 
-TEST_F(Gate, UnrelatedLinksDoNotRestart) {
+TEST_F(TransformFilterTest, UnrelatedLinksDoNotRestart) {
   for (int n = 0; n < 10; ++n) EXPECT_EQ(next(0, "robot"), Verdict::use);
   EXPECT_EQ(refused_in_a_row(-60 * second, "robot", 100), 100);
-  EXPECT_EQ(gate.statistics().restarts, 0u);
-  EXPECT_EQ(gate.statistics().refused, 0u);
+  EXPECT_EQ(filter.statistics().restarts, 0u);
+  EXPECT_EQ(filter.statistics().refused, 0u);
   // It takes the camera on.
   now += field;
-  EXPECT_EQ(gate.judge({"robot", "camera", start + now, "/driver"}, start + now, now), Verdict::use);
+  EXPECT_EQ(filter.judge({"robot", "camera", start + now, "/driver"}, start + now, now), Verdict::use);
   EXPECT_EQ(next(-60 * second, "robot"), Verdict::restart);
 }
 
-TEST_F(Gate, ALoopOfFramesDoesNotHang) {
-  EXPECT_EQ(gate.judge({"b", "camera", start, "/driver"}, start, now), Verdict::use);
-  EXPECT_EQ(gate.judge({"camera", "b", start, "/driver"}, start, now), Verdict::use);
+TEST_F(TransformFilterTest, ALoopOfFramesDoesNotHang) {
+  EXPECT_EQ(filter.judge({"b", "camera", start, "/driver"}, start, now), Verdict::use);
+  EXPECT_EQ(filter.judge({"camera", "b", start, "/driver"}, start, now), Verdict::use);
   EXPECT_EQ(judge("robot", start + 60 * second), Verdict::refuse);
 }
 
-TEST_F(Gate, RosTimeThatGoesBackRestartsAtOnce) {
-  EXPECT_FALSE(gate.ros_time_went_back(start));
-  EXPECT_FALSE(gate.ros_time_went_back(start - second / 2));
-  EXPECT_FALSE(gate.ros_time_went_back(start + 100 * second));
-  EXPECT_EQ(gate.judge({"studio", "camera", start + 100 * second, "/driver"}, start + 100 * second, now), Verdict::use);
-  EXPECT_TRUE(gate.ros_time_went_back(start));
-  EXPECT_FALSE(gate.ros_time_went_back(start));
-  EXPECT_EQ(gate.judge({"studio", "camera", start, "/driver"}, start, now), Verdict::use);
-  EXPECT_EQ(describe(gate.statistics().last_restart), "ROS time went back by 100.0 s");
+TEST_F(TransformFilterTest, RosTimeThatGoesBackRestartsAtOnce) {
+  EXPECT_FALSE(filter.ros_time_went_back(start));
+  EXPECT_FALSE(filter.ros_time_went_back(start - second / 2));
+  EXPECT_FALSE(filter.ros_time_went_back(start + 100 * second));
+  EXPECT_EQ(filter.judge({"studio", "camera", start + 100 * second, "/driver"}, start + 100 * second, now),
+            Verdict::use);
+  EXPECT_TRUE(filter.ros_time_went_back(start));
+  EXPECT_FALSE(filter.ros_time_went_back(start));
+  EXPECT_EQ(filter.judge({"studio", "camera", start, "/driver"}, start, now), Verdict::use);
+  EXPECT_EQ(describe(filter.statistics().last_restart), "ROS time went back by 100.0 s");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "bridge/outlet_writer.h"
 #include "bridge/params_to_trk.h"
 #include "bridge/tf_to_trk.h"
-#include "gated_sink.h"
+#include "controlled_sink.h"
 #include "ros/camera_info.h"
 #include "ros/camera_messages.h"
 #include "same_camera.h"
@@ -72,13 +72,14 @@ struct Sent {
 
 std::optional<Sent> sent(const Case& c, const std::optional<bridge::OutgoingSet>& set) {
   if (!set || !set->constants) return std::nullopt;
-  test::Gate gate;
-  gate.open();
-  bridge::OutletWriter outlet(std::make_unique<test::GatedSink>(gate, "sink"), form_of(c), bridge::Feed::one_camera);
+  test::SinkControl control;
+  control.open();
+  bridge::OutletWriter outlet(std::make_unique<test::ControlledSink>(control, "sink"), form_of(c),
+                              bridge::Feed::one_camera);
   outlet.write(*set->constants);
   outlet.write(set->params);
-  if (gate.constants().empty() || gate.params().empty()) return std::nullopt;
-  return Sent{gate.constants()[0], gate.params()[0]};
+  if (control.constants().empty() || control.params().empty()) return std::nullopt;
+  return Sent{control.constants()[0], control.params()[0]};
 }
 
 std::optional<Sent> sent_again(const Case& c, const Incoming& incoming) {

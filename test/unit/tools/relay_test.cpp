@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "base/clock.h"
-#include "gated_sink.h"
+#include "controlled_sink.h"
 #include "memory_feed.h"
 #include "same_camera.h"
 #include "temporary_directory.h"
@@ -34,11 +34,11 @@ using transport::Event;
 
 class RelayTest : public testing::Test {
  protected:
-  RelayTest() { gate.open(); }
+  RelayTest() { control.open(); }
 
   void add(const transport::SinkEndpoint& endpoint) { to.push_back(endpoint); }
-  void add_gate(const transport::SinkForm& form = {}) {
-    add(test::endpoint_of(gate, transport::Blocking::never, form));
+  void add_sink(const transport::SinkForm& form = {}) {
+    add(test::endpoint_of(control, transport::Blocking::never, form));
   }
   void add_file(const std::string& path) { add(endpoints::parse_sink("file:" + path).value()); }
   cli::ExitCode run(const transport::SinkForm& defaults = {}, bool source_can_wait = false) {
@@ -49,7 +49,7 @@ class RelayTest : public testing::Test {
   }
 
   test::MemoryFeed feed;
-  test::Gate gate;
+  test::SinkControl control;
   std::vector<transport::SinkEndpoint> to;
   std::ostringstream err;
 };
@@ -67,9 +67,9 @@ TEST_F(RelayTest, EveryWorkedCaseBecomesTheCanonicalCameraInEuler) {
     feed.put(constants);
     feed.put(test::case_params_of(one["params"]));
   }
-  add_gate();
+  add_sink();
   EXPECT_EQ(run(form_of(wire::euler)), cli::exit_good) << err.str();
-  const auto sent = gate.params();
+  const auto sent = control.params();
   ASSERT_EQ(sent.size(), cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const auto& params = sent[i];
@@ -100,11 +100,11 @@ TEST_F(RelayTest, WithoutOptionsRecordsAreNotChanged) {
   }
   sent.emplace_back(test::constants(720, 3));
   for (const auto& record : sent) feed.put(record);
-  add_gate();
+  add_sink();
   EXPECT_EQ(run(), cli::exit_good);
-  const auto records = gate.records();
+  const auto records = control.records();
   EXPECT_EQ(records, sent);
-  EXPECT_TRUE(gate.is_closed());
+  EXPECT_TRUE(control.is_closed());
   EXPECT_THAT(err.str(), HasSubstr("received " + std::to_string(sent.size())));
 }
 
@@ -112,9 +112,9 @@ TEST_F(RelayTest, RecordsWithoutALensAreRefusedWithTheReason) {
   feed.put(test::params(1, 3));
   feed.put_without_lens(test::params(2, 3));
   feed.put_without_lens(test::params(3, 3));
-  add_gate();
+  add_sink();
   EXPECT_EQ(run(), cli::exit_failed);
-  EXPECT_EQ(gate.params().size(), 1u);
+  EXPECT_EQ(control.params().size(), 1u);
   EXPECT_THAT(err.str(),
               HasSubstr("parameters from 127.0.0.1:5000 cannot be passed on: the records have no lens: a lens "
                         "table of the source (lens=FILE) would give one (reported once)"));
@@ -123,7 +123,7 @@ TEST_F(RelayTest, RecordsWithoutALensAreRefusedWithTheReason) {
 
 TEST_F(RelayTest, ALensOutsideItsTableIsReported) {
   feed.put_without_lens(test::params(2, 3), "the lens encoders are beyond the lens table");
-  add_gate();
+  add_sink();
   EXPECT_EQ(run(), cli::exit_failed);
   EXPECT_THAT(err.str(), HasSubstr("the records have no lens: the lens encoders are beyond the lens table"));
 }
@@ -131,11 +131,11 @@ TEST_F(RelayTest, ALensOutsideItsTableIsReported) {
 TEST_F(RelayTest, AnotherIdReplacesTheReceivedOne) {
   feed.put(test::constants(720, 3));
   feed.put(test::params(1, 3));
-  add_gate();
+  add_sink();
   transport::SinkForm form;
   form.id = 9;
   EXPECT_EQ(run(form), cli::exit_good);
-  const auto records = gate.records();
+  const auto records = control.records();
   ASSERT_EQ(records.size(), 2u);
   EXPECT_EQ(std::get<wire::CameraConstants>(records[0]), test::constants(720, 9));
   EXPECT_EQ(std::get<wire::CameraParams>(records[1]), test::params(1, 9));
@@ -153,9 +153,9 @@ TEST_F(RelayTest, ConstantsAreKeptById) {
   feed.put(params);
   params.id = 2;
   feed.put(params);
-  add_gate();
+  add_sink();
   EXPECT_EQ(run(form_of(wire::euler)), cli::exit_good) << err.str();
-  const auto records = gate.records();
+  const auto records = control.records();
   ASSERT_EQ(records.size(), 4u);
   EXPECT_NEAR(std::get<wire::CameraParams>(records[2]).fov, 4.4, 1e-12);
   EXPECT_NEAR(std::get<wire::CameraParams>(records[3]).fov, 2.2, 1e-12);
@@ -166,9 +166,9 @@ TEST_F(RelayTest, TheFakeChipFitsTheSentFormat) {
   constants.blank_left = constants.blank_right = 10;
   constants.fake_chip_width = constants.fake_chip_height = 0;
   feed.put(constants);
-  add_gate();
+  add_sink();
   EXPECT_EQ(run(form_of(wire::euler | wire::ignore_blank | wire::keep_aspect)), cli::exit_good);
-  const auto records = gate.records();
+  const auto records = control.records();
   ASSERT_EQ(records.size(), 1u);
   const auto& sent = std::get<wire::CameraConstants>(records[0]);
   EXPECT_NEAR(sent.fake_chip_width, 8.8 * 720 / 700, 1e-12);
@@ -181,9 +181,9 @@ TEST_F(RelayTest, RecordsThatNeedConstantsAreRefusedWithoutThemReportedOnceAndCo
   for (params.counter = 1; params.counter <= 3; ++params.counter) feed.put(params);
   feed.put(test::constants());
   feed.put(params);
-  add_gate();
+  add_sink();
   EXPECT_EQ(run(form_of(wire::euler)), cli::exit_failed);
-  const auto records = gate.records();
+  const auto records = control.records();
   EXPECT_EQ(records.size(), 2u);
   EXPECT_THAT(err.str(), HasSubstr("cannot be passed on as \"euler"));
   EXPECT_THAT(err.str(), HasSubstr("not passed on: 3 records"));
@@ -197,24 +197,24 @@ TEST_F(RelayTest, InvalidConstantsInvalidateEarlierOnes) {
   feed.put(test::constants(720));
   feed.put(test::constants(-1));
   feed.put(params);
-  add_gate();
+  add_sink();
   EXPECT_EQ(run(form_of(wire::euler)), cli::exit_failed);
-  const auto records = gate.records();
+  const auto records = control.records();
   EXPECT_EQ(records.size(), 1u) << "the first constants only: what came after them made them invalid";
 }
 
 TEST_F(RelayTest, ASinkThatRefusesDoesNotAffectOthers) {
-  test::Gate torn;
+  test::SinkControl torn;
   torn.open();
   torn.set_fault(transport::SinkFault{transport::SinkReason::system, {}, ENETUNREACH});
   for (const auto blocking : {transport::Blocking::never, transport::Blocking::storage}) {
     add(test::endpoint_of(torn, blocking, {}, blocking == transport::Blocking::never ? "torn wire" : "torn disk"));
   }
-  add_gate();
+  add_sink();
   for (std::uint64_t counter = 1; counter <= 4; ++counter) feed.put(test::params(counter));
   EXPECT_EQ(run(), cli::exit_failed);
-  EXPECT_EQ(gate.records().size(), 4u);
-  EXPECT_TRUE(gate.is_closed() && torn.is_closed());
+  EXPECT_EQ(control.records().size(), 4u);
+  EXPECT_TRUE(control.is_closed() && torn.is_closed());
   for (const std::string name : {"torn wire", "torn disk"}) {
     EXPECT_THAT(err.str(), HasSubstr("trk: " + name + ": the system refused: Network is unreachable (reported once)"));
     EXPECT_THAT(err.str(), HasSubstr("trk: " + name + ": 4 times"));
@@ -222,7 +222,7 @@ TEST_F(RelayTest, ASinkThatRefusesDoesNotAffectOthers) {
 }
 
 TEST_F(RelayTest, EverySinkHasItsOwnForm) {
-  test::Gate other, plain;
+  test::SinkControl other, plain;
   other.open();
   plain.open();
   auto form = form_of(wire::euler | wire::field_of_view);
@@ -243,7 +243,7 @@ TEST_F(RelayTest, ADelayedSinkGetsTheDelayedCamera) {
   const auto seconds_now = [] { return static_cast<double>(base::wall_now() % 1'000'000'000'000) / 1e9; };
   const test::PlainSocket tracker, receiver;
   const auto source = endpoints::open_source("udp://127.0.0.1:0");
-  add_gate();
+  add_sink();
   add(endpoints::parse_sink("udp://127.0.0.1:" + std::to_string(receiver.port()) + "?delay=0.04").value());
   FanOut sinks(err);
   for (const auto& endpoint : to) sinks.add(endpoint, {});
@@ -262,7 +262,7 @@ TEST_F(RelayTest, ADelayedSinkGetsTheDelayedCamera) {
       tracker.send(test::datagram(params), "127.0.0.1", test::port_of(*source));
     }
     is_over = true;
-    EXPECT_TRUE(gate.has_written(sets)) << "the sink without a delay waits for nothing";
+    EXPECT_TRUE(control.has_written(sets)) << "the sink without a delay waits for nothing";
     source->stop();
   });
   double least_age = 1e9, x = 0;
@@ -294,7 +294,7 @@ TEST_F(RelayTest, ADelayedSinkGetsTheDelayedCamera) {
 TEST_F(RelayTest, ATakeThatIsReadAsFastAsPossibleCannotBeDelayed) {
   transport::SinkForm form;
   form.delay = transport::Delay{1, 1, 1};
-  add_gate(form);
+  add_sink(form);
   try {
     run({}, true);
     FAIL() << "is refused";
@@ -304,13 +304,13 @@ TEST_F(RelayTest, ATakeThatIsReadAsFastAsPossibleCannotBeDelayed) {
 }
 
 TEST_F(RelayTest, ASlowSinkDoesNotSlowDownOthers) {
-  test::Gate slow;
+  test::SinkControl slow;
   add(test::endpoint_of(slow, transport::Blocking::storage, {}, "slow disk"));
-  add_gate();
+  add_sink();
   for (std::uint64_t counter = 1; counter <= 100; ++counter) feed.put(test::params(counter));
   // Ends once the other sink has everything, which it would never have if it waited.
   std::thread watch([&] {
-    EXPECT_TRUE(gate.has_written(100));
+    EXPECT_TRUE(control.has_written(100));
     EXPECT_EQ(slow.count(), 0u);
     slow.open();
   });
@@ -321,12 +321,12 @@ TEST_F(RelayTest, ASlowSinkDoesNotSlowDownOthers) {
 
 TEST_F(RelayTest, ARecordingThatCannotKeepUpIsAFailure) {
   constexpr std::uint64_t sets = 12'000;
-  test::Gate slow;
+  test::SinkControl slow;
   add(test::endpoint_of(slow, transport::Blocking::storage, {}, "slow disk"));
-  add_gate();
+  add_sink();
   for (std::uint64_t counter = 1; counter <= sets; ++counter) feed.put(test::params(counter));
   std::thread watch([&] {
-    EXPECT_TRUE(gate.has_written(sets));
+    EXPECT_TRUE(control.has_written(sets));
     slow.open();
   });
   EXPECT_EQ(run(), cli::exit_failed);
@@ -339,7 +339,7 @@ TEST_F(RelayTest, ARecordingThatCannotKeepUpIsAFailure) {
 
 TEST_F(RelayTest, ATakeThatIsPlayedAsFastAsPossibleLosesNothing) {
   constexpr std::uint64_t sets = 12'000;
-  test::Gate slow;
+  test::SinkControl slow;
   add(test::endpoint_of(slow, transport::Blocking::storage));
   add(test::endpoint_of(slow, transport::Blocking::attaching));
   for (std::uint64_t counter = 1; counter <= sets; ++counter) feed.put(test::params(counter));
@@ -375,12 +375,12 @@ TEST_F(RelayTest, ACopyOfATakeHasItsTimeCode) {
 
 TEST_F(RelayTest, ReplacedSetsAreReportedAndNotAFailure) {
   constexpr std::uint64_t sets = 500;
-  test::Gate slow;
+  test::SinkControl slow;
   add(test::endpoint_of(slow, transport::Blocking::attaching, {}, "slow slot"));
-  add_gate();
+  add_sink();
   for (std::uint64_t counter = 1; counter <= sets; ++counter) feed.put(test::params(counter));
   std::thread watch([&] {
-    EXPECT_TRUE(gate.has_written(sets));
+    EXPECT_TRUE(control.has_written(sets));
     slow.open();
   });
   EXPECT_EQ(run(), cli::exit_good);
@@ -392,9 +392,9 @@ TEST_F(RelayTest, ReplacedSetsAreReportedAndNotAFailure) {
 
 TEST_F(RelayTest, ConstantsOfTooManyIdsAreRefused) {
   for (std::uint32_t id = 0; id < 300; ++id) feed.put(test::constants(720, id));
-  add_gate();
+  add_sink();
   EXPECT_EQ(run(), cli::exit_failed);
-  EXPECT_EQ(gate.count(), 256u);
+  EXPECT_EQ(control.count(), 256u);
   EXPECT_THAT(err.str(), HasSubstr("constants of more than 256 ids were received; more are not accepted"));
   EXPECT_THAT(err.str(), HasSubstr("not passed on: 44 records: "));
 }
@@ -425,7 +425,7 @@ TEST_F(RelayTest, WithoutConstantsThereIsNoFile) {
 TEST_F(RelayTest, MalformedRecordsAreReportedOncePerReason) {
   for (int i = 0; i < 5; ++i) feed.put_malformed(wire::Reason::bad_magic);
   feed.put_malformed(wire::Reason::truncated);
-  add_gate();
+  add_sink();
   EXPECT_EQ(run(), cli::exit_good);
   const std::string text = err.str();
   EXPECT_EQ(text.find("bad magic"), text.rfind("bad magic: does")) << text;

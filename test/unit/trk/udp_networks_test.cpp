@@ -168,10 +168,10 @@ struct Way {
 };
 
 /// What happens to the network, and what ends it.
-struct Happening {
+struct NetworkEvent {
   const char* name;
   bool is_there_before;
-  void (*happens)(const Network&);
+  void (*apply)(const Network&);
   void (*ends)(const Network&);
 };
 
@@ -213,7 +213,7 @@ void add_routes(const Network& n) {
       "route replace 2001:db8::/64 via fd00:9::2");
 }
 
-const Happening happenings[] = {
+const NetworkEvent events[] = {
     {"link_down", true, [](const Network& n) { n.near.ip("link set v0 down"); },
      [](const Network& n) {
        n.near.ip("link set v0 up");
@@ -298,11 +298,11 @@ class NetworkTest : public testing::Test {
   static inline std::optional<Network> network;
 };
 
-using Case = std::tuple<Happening, Way>;
+using Case = std::tuple<NetworkEvent, Way>;
 
 class Recovery : public NetworkTest, public testing::WithParamInterface<Case> {
  protected:
-  const Happening& happening() const { return std::get<0>(GetParam()); }
+  const NetworkEvent& event() const { return std::get<0>(GetParam()); }
   const Way& way() const { return std::get<1>(GetParam()); }
 };
 
@@ -310,17 +310,17 @@ class SourceRecovery : public Recovery {};
 class SinkRecovery : public Recovery {};
 
 TEST_P(SourceRecovery, RecordsAreReceivedAgain) {
-  if (happening().is_there_before) network->plug_in("index 77");
+  if (event().is_there_before) network->plug_in("index 77");
   const auto source = source_at(way().url);
-  if (happening().is_there_before) {
+  if (event().is_there_before) {
     const FarSender tracker(*network, way().to);
     ASSERT_TRUE(time_until([&] { return gets_one(*source, tracker); })) << "before anything happens";
     ASSERT_THAT(waiting_for(*source), IsEmpty());
   }
-  happening().happens(*network);
+  event().apply(*network);
   std::optional<FarSender> tracker;
   expect_recovery(
-      "source", way(), happening().name, [&] { happening().ends(*network); },
+      "source", way(), event().name, [&] { event().ends(*network); },
       [&] {
         tracker.emplace(*network, way().to);
         return [&] { return gets_one(*source, *tracker); };
@@ -329,22 +329,22 @@ TEST_P(SourceRecovery, RecordsAreReceivedAgain) {
 }
 
 TEST_P(SinkRecovery, RecordsArriveAgain) {
-  if (happening().is_there_before) {
+  if (event().is_there_before) {
     network->plug_in("index 77");
     add_routes(*network);
   }
   const auto sink = sink_to(way().url);
-  if (happening().is_there_before) {
+  if (event().is_there_before) {
     const FarReceiver receiver(*network);
     ASSERT_TRUE(time_until([&] { return sends_one(*sink, receiver); })) << "before anything happens";
   }
-  happening().happens(*network);
+  event().apply(*network);
   std::optional<FarReceiver> receiver;
   const auto ends = [&] {
-    happening().ends(*network);
+    event().ends(*network);
     add_routes(*network);
   };
-  expect_recovery("sink", way(), happening().name, ends, [&] {
+  expect_recovery("sink", way(), event().name, ends, [&] {
     receiver.emplace(*network);
     return [&] { return sends_one(*sink, *receiver); };
   });
@@ -358,9 +358,9 @@ std::string name_of_case(const testing::TestParamInfo<Case>& info) {
   return std::string(std::get<1>(info.param).name) + "_after_" + std::get<0>(info.param).name;
 }
 INSTANTIATE_TEST_SUITE_P(Networks, SourceRecovery,
-                         testing::Combine(testing::ValuesIn(happenings), testing::ValuesIn(sources)), name_of_case);
-INSTANTIATE_TEST_SUITE_P(Networks, SinkRecovery,
-                         testing::Combine(testing::ValuesIn(happenings), testing::ValuesIn(sinks)), name_of_case);
+                         testing::Combine(testing::ValuesIn(events), testing::ValuesIn(sources)), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Networks, SinkRecovery, testing::Combine(testing::ValuesIn(events), testing::ValuesIn(sinks)),
+                         name_of_case);
 
 class SourceOutage : public NetworkTest, public testing::WithParamInterface<Way> {};
 class SinkOutage : public NetworkTest, public testing::WithParamInterface<Way> {};
@@ -374,10 +374,10 @@ TEST_P(SourceOutage, ReportsWhatItWaitsFor) {
       << waiting_for(*source);
   const FarSender tracker(*network, way.to);
   ASSERT_TRUE(time_until([&] { return gets_one(*source, tracker); }));
-  for (const char* happens : {"link set v0 down", "link del v0"}) {
-    network->near.ip(happens);
+  for (const char* change : {"link set v0 down", "link del v0"}) {
+    network->near.ip(change);
     if (*way.tied != '\0') {
-      EXPECT_THAT(waiting_for(*source), HasSubstr(way.tied)) << happens;
+      EXPECT_THAT(waiting_for(*source), HasSubstr(way.tied)) << change;
     }
     EXPECT_NE(source->statistics().state, transport::SourceState::failed);
   }
@@ -389,21 +389,21 @@ TEST_P(SinkOutage, IsAFaultWhileItLasts) {
   const auto fails = [&sink] { return !sink->write(test::params(1)); };
   EXPECT_TRUE(fails()) << "nothing is there";
   network->plug_in();
-  for (const char* happens : {"link set v0 down", "addr flush dev v0", "link del v0"}) {
+  for (const char* change : {"link set v0 down", "addr flush dev v0", "link del v0"}) {
     // Where a route stays, the kernel sends from any address that it has left.
-    if (way.is_route_decisive && is_ipv6(way.url) && happens == std::string("addr flush dev v0")) continue;
+    if (way.is_route_decisive && is_ipv6(way.url) && change == std::string("addr flush dev v0")) continue;
     add_routes(*network);
     const FarReceiver receiver(*network);
-    ASSERT_TRUE(time_until([&] { return sends_one(*sink, receiver); })) << "before " << happens;
-    network->near.ip(happens);
+    ASSERT_TRUE(time_until([&] { return sends_one(*sink, receiver); })) << "before " << change;
+    network->near.ip(change);
     // A moment may pass until the kernel says so.
-    EXPECT_TRUE(time_until(fails)) << happens;
+    EXPECT_TRUE(time_until(fails)) << change;
     for (int i = 0; i < 5; ++i) {
       const auto errors = sink->statistics().errors;
-      EXPECT_TRUE(fails()) << happens;
+      EXPECT_TRUE(fails()) << change;
       EXPECT_EQ(sink->statistics().errors, errors + 1);
     }
-    if (happens == std::string("link del v0")) {
+    if (change == std::string("link del v0")) {
       if (*way.tied != '\0') {
         EXPECT_TRUE(
             time_until([&] { return sink->write(test::params(1)).error().reason == SinkReason::no_interface; }));

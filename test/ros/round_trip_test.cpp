@@ -18,7 +18,7 @@ namespace trk_bridge::test {
 namespace {
 
 /// What of ros_to_trk comes back is the test's.
-class RoundTripOfTakes : public TrkToRosTest {
+class RoundTripOfNodes : public TrkToRosTest {
  protected:
   void SetUp() override {
     set("source", any_udp_port);
@@ -53,7 +53,7 @@ class RoundTripOfTakes : public TrkToRosTest {
   std::uint64_t counter = 0;
 };
 
-class ThroughParams : public RoundTripOfTakes, public ::testing::WithParamInterface<const char*> {};
+class ThroughParams : public RoundTripOfNodes, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(ThroughParams, EveryCaseIsTheSameCamera) {
   Receiver receiver;
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(As, ThroughParams,
                          [](const auto& test) { return test.index == 0 ? "Euler" : "Everything"; });
 
 /// ros_to_trk is made again for every chip.
-class ThroughTf : public RoundTripOfTakes {
+class ThroughTf : public RoundTripOfNodes {
  protected:
   using Picture = std::tuple<double, double, int, int, int, int>;
 

@@ -19,7 +19,7 @@
 namespace trk_bridge::test {
 
 /// What a gated sink was given, and whether it may go on. Any thread.
-class Gate {
+class SinkControl {
  public:
   /// From now on writes end.
   void open() {
@@ -135,41 +135,44 @@ class Gate {
   std::vector<wire::Record> records_;
 };
 
-class GatedSink final : public transport::Sink {
+class ControlledSink final : public transport::Sink {
  public:
-  GatedSink(std::shared_ptr<Gate> gate, std::string name) : gate_(std::move(gate)), name_(std::move(name)) {}
-  /// The gate outlives the sink.
-  GatedSink(Gate& gate, std::string name) : GatedSink(std::shared_ptr<Gate>(&gate, [](Gate*) {}), std::move(name)) {}
+  ControlledSink(std::shared_ptr<SinkControl> control, std::string name)
+      : control_(std::move(control)), name_(std::move(name)) {}
+  /// The control outlives the sink.
+  ControlledSink(SinkControl& control, std::string name)
+      : ControlledSink(std::shared_ptr<SinkControl>(&control, [](SinkControl*) {}), std::move(name)) {}
   std::string name() const override { return name_; }
 
  private:
-  void get_ready() override { gate_->prepare(); }
-  transport::Written put(const wire::CameraParams& params) override { return gate_->write(params); }
-  transport::Written put(const wire::CameraConstants& constants) override { return gate_->write(constants); }
+  void get_ready() override { control_->prepare(); }
+  transport::Written put(const wire::CameraParams& params) override { return control_->write(params); }
+  transport::Written put(const wire::CameraConstants& constants) override { return control_->write(constants); }
   transport::Written finish() override {
-    gate_->close();
+    control_->close();
     return {};
   }
 
-  const std::shared_ptr<Gate> gate_;
+  const std::shared_ptr<SinkControl> control_;
   const std::string name_;
 };
 
-/// An endpoint of a gate that what is opened may outlive.
-inline transport::SinkEndpoint endpoint_of(const std::shared_ptr<Gate>& gate,
+/// An endpoint of a control that what is opened may outlive.
+inline transport::SinkEndpoint endpoint_of(const std::shared_ptr<SinkControl>& control,
                                            transport::Blocking blocking = transport::Blocking::never,
-                                           const transport::SinkForm& form = {}, const std::string& name = "gate") {
+                                           const transport::SinkForm& form = {}, const std::string& name = "control") {
   transport::SinkEndpoint endpoint;
   endpoint.url = "test:" + name;
   endpoint.form = form;
   endpoint.blocking = blocking;
-  endpoint.open = [gate, name] { return std::make_unique<GatedSink>(gate, name); };
+  endpoint.open = [control, name] { return std::make_unique<ControlledSink>(control, name); };
   return endpoint;
 }
-/// An endpoint of a gate that outlives what is opened.
-inline transport::SinkEndpoint endpoint_of(Gate& gate, transport::Blocking blocking = transport::Blocking::never,
-                                           const transport::SinkForm& form = {}, const std::string& name = "gate") {
-  return endpoint_of(std::shared_ptr<Gate>(&gate, [](Gate*) {}), blocking, form, name);
+/// An endpoint of a control that outlives what is opened.
+inline transport::SinkEndpoint endpoint_of(SinkControl& control,
+                                           transport::Blocking blocking = transport::Blocking::never,
+                                           const transport::SinkForm& form = {}, const std::string& name = "control") {
+  return endpoint_of(std::shared_ptr<SinkControl>(&control, [](SinkControl*) {}), blocking, form, name);
 }
 
 }  // namespace trk_bridge::test
