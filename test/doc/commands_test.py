@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Runs every command of all pages, as pages.py says that they are marked.
+"""Runs the commands of README.md, CONTRIBUTING.md and the pages in doc/ as their marks say (see pages.py).
 
-A page is one session from top to bottom: what follows a command finds what that has left, files, parameters and what
-runs in the background until the text says Ctrl-C. Each page has a folder of its own, which is its home, too, and the
-address of a ROS master of its own, where nobody listens yet. stand_ins.py has what is changed in the commands. Windows open on a display that nobody sees.
+A page is one session from top to bottom: commands find the files, parameters and background processes of earlier commands.
+Background processes run until the text says Ctrl-C. Each page has a separate folder, which is also its home, and the address
+of a ROS master that is not yet running. stand_ins.py lists what is changed in the commands. Windows open on a virtual
+display.
 """
 
 import argparse
@@ -24,7 +25,7 @@ import stand_ins
 
 @contextlib.contextmanager
 def invisible_display():
-    """The name of an X display of its own."""
+    """The name of a separate X display."""
     read, write = os.pipe()
     try:
         command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"]
@@ -43,7 +44,7 @@ def invisible_display():
 
 
 def environment_of(build, devel, display):
-    """What a terminal has after `. build/devel/setup.bash`."""
+    """The environment of a terminal after `. build/devel/setup.bash`."""
     basic = {name: value for name, value in os.environ.items() if name in ("LANG", "USER", "LOGNAME", "TERM", "TMPDIR")}
     basic["PATH"] = "/usr/sbin:/usr/bin:/sbin:/bin"
     noetic = pathlib.Path("/opt/ros/noetic/setup.bash")
@@ -55,7 +56,7 @@ def environment_of(build, devel, display):
         "DISPLAY": display,
         "LIBGL_ALWAYS_SOFTWARE": "1",
         "ROS_IP": "127.0.0.1",
-        # Into a file as to a terminal: what is said comes at once.
+        # Output to a file is unbuffered, like to a terminal.
         "PYTHONUNBUFFERED": "1",
         "ROSCONSOLE_STDOUT_LINE_BUFFERED": "1",
     }
@@ -63,14 +64,14 @@ def environment_of(build, devel, display):
 
 
 def is_scripts_build(root, build):
-    """Whether it is such a build as the project's scripts make, which they may then use."""
+    """Whether it is a build of the project's scripts, which they may then use."""
     cache = build / "CMakeCache.txt"
     lines = cache.read_text().splitlines() if cache.exists() else []
     return {f"CMAKE_HOME_DIRECTORY:INTERNAL={root}", "CMAKE_GENERATOR:INTERNAL=Ninja"} <= set(lines)
 
 
 def script_text(path):
-    """A script's text, with that of the scripts beside it that it sources."""
+    """A script's text, including the scripts of its folder that it sources."""
     text = path.read_text()
     for name in re.findall(r'^\. "\$\(dirname "\$0"\)/([^"]+)"$', text, re.MULTILINE):
         text += (path.parent / name).read_text()
@@ -78,7 +79,7 @@ def script_text(path):
 
 
 class Skipped(Exception):
-    """Why a block could not be run here."""
+    """Why a block cannot be run here."""
 
 
 class PageRun:
@@ -129,7 +130,7 @@ class PageRun:
 
 
 class Report:
-    """Tells how it goes, and writes JUnit's file."""
+    """Prints the progress, and writes the JUnit file."""
 
     def __init__(self):
         self.failed = self.skipped = 0
@@ -176,14 +177,14 @@ def run_page(options, path, environment, report):
         logs.mkdir()
         table = stand_ins.stand_ins(options.root, options.build, slot.number)
         page = PageRun(options.root, options.build, environment, home, logs, table)
-        broken = False  # what follows has nothing to stand on
+        broken = False  # later commands depend on it
         for block in blocks:
             begin, error = time.monotonic(), None
             try:
                 if block.mark is not None and block.mark.kind == "Ctrl-C":
                     broken = False
                 if broken:
-                    raise session.CommandError("not run: one before it has failed")
+                    raise session.CommandError("not run: an earlier one has failed")
                 page.run(block)
             except Skipped as reason:
                 error = reason
@@ -195,7 +196,7 @@ def run_page(options, path, environment, report):
                 report.add(name, block, time.monotonic() - begin, error)
         running = page.terminals.running()
         if running and not options.section:
-            report.add(name, None, 0, "its text does not end what runs: " + "; ".join(running))
+            report.add(name, None, 0, "its text does not say Ctrl-C for background processes: " + "; ".join(running))
         with contextlib.suppress(session.CommandError):
             page.terminals.end_all()
 
@@ -206,8 +207,8 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, required=True, help="its build")
     parser.add_argument("--devel", type=pathlib.Path, required=True, help="that build's devel space")
     parser.add_argument("--junit", type=pathlib.Path, help="where results are written to")
-    parser.add_argument("--section", help="only sections whose heading has this in it")
-    parser.add_argument("pages", nargs="*", type=pathlib.Path, help="default: all pages")
+    parser.add_argument("--section", help="only sections whose heading contains this")
+    parser.add_argument("pages", nargs="*", type=pathlib.Path, help="default: README.md, CONTRIBUTING.md and doc/*.md")
     options = parser.parse_args()
     options.root, options.build = options.root.resolve(), options.build.resolve()
     paths = pages.page_files(options.root)

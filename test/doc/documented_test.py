@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Whether what the public headers offer is documented, and the pages of Doxygen lead somewhere: documented_test.py OUTPUT.
+"""Checks that the public headers are documented, and the links of the Doxygen pages: documented_test.py OUTPUT.
 
-Every class, struct, union, enumeration, type and function needs a comment. Not so: constructors, destructors and
-operators; overloads of a function that has one; and functions without arguments that only tell something (`name() const`).
-Fields and enumerators may speak for themselves.
+Every class, struct, union, enumeration, type and function needs a comment. Exceptions: constructors, destructors and
+operators; overloads of a function that has one; and getters without arguments (`name() const`). Fields and enumerators need
+no comment.
 """
 
 import pathlib
@@ -62,7 +62,7 @@ def dead_links_of(html_folder):
             if address.scheme or address.netloc or not address.path:
                 continue
             if not (page.parent / urllib.parse.unquote(address.path)).exists():
-                yield f"{page.name}: {target} is not there"
+                yield f"{page.name}: {target} does not exist"
 
 
 def main():

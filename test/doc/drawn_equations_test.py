@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether the equations that the drawings are computed with are those of the 256 worked cases."""
+"""Checks the equations of the drawings with the 256 worked cases."""
 
 import json
 import math
@@ -15,11 +15,11 @@ EULER, STUDIO_TO_CAMERA, CAMERA_Y_UP, STUDIO_Y_UP, FIELD_OF_VIEW = 0x001, 0x002,
 VERTICAL, DIAGONAL, IGNORE_BLANK, KEEP_ASPECT = 0x020, 0x040, 0x080, 0x100
 
 
-def is_near(told, expected, tolerance=1e-9):
-    return all(abs(a - b) <= tolerance * max(1, abs(b)) for a, b in zip(told, expected, strict=True))
+def is_near(actual, expected, tolerance=1e-9):
+    return all(abs(a - b) <= tolerance * max(1, abs(b)) for a, b in zip(actual, expected, strict=True))
 
 
-def told_matrix(mask, rotation, position):
+def sender_matrix(mask, rotation, position):
     """Rows of the sender's matrix without the last one."""
     studio = space.TO_Y_UP if mask & STUDIO_Y_UP else space.IDENTITY
     camera = space.TO_Y_UP if mask & CAMERA_Y_UP else space.IDENTITY
@@ -38,18 +38,18 @@ def check_pose(case):
     yield "rotation", is_near(sum(rotation, ()), rows[0:3] + rows[4:7] + rows[8:11])
     if case["mask"] & EULER:
         return
-    linear, translation = told_matrix(case["mask"], rotation, (rows[3], rows[7], rows[11]))
+    linear, translation = sender_matrix(case["mask"], rotation, (rows[3], rows[7], rows[11]))
     columns = case["params"]["matrix_columns"]
-    told = [value for column in (*space.transposed(linear), translation) for value in column]
-    yield "matrix of the format", is_near(told, [columns[4 * j + i] for j in range(4) for i in range(3)], 1e-8)
+    actual = [value for column in (*space.transposed(linear), translation) for value in column]
+    yield "matrix of the format", is_near(actual, [columns[4 * j + i] for j in range(4) for i in range(3)], 1e-8)
 
 
 def check_chip(case):
-    told, expect = case["constants"], case["expect"]
+    given, expect = case["constants"], case["expect"]
     constants = picture_plane.Constants(
-        (told["imageWidth"], told["imageHeight"]),
-        (told["blankLeft"], told["blankRight"], told["blankTop"], told["blankBottom"]),
-        (told["chipWidth"], told["chipHeight"]))
+        (given["imageWidth"], given["imageHeight"]),
+        (given["blankLeft"], given["blankRight"], given["blankTop"], given["blankBottom"]),
+        (given["chipWidth"], given["chipHeight"]))
     d, (cx, cy) = expect["image_distance_mm"], expect["center_shift_mm"]
     yield "K", is_near([constants.mx * d, constants.my * d, *constants.ros_pixel((-cx, -cy))],
                        [expect["K"][i] for i in (0, 4, 2, 5)])

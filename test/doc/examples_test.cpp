@@ -1,4 +1,4 @@
-// The programs that the documentation shows, each in its own process, with the trk tool at the other end.
+// The example programs of the documentation, each in its process, with the trk tool at the other end.
 #include <csignal>
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ using ::testing::StartsWith;
 
 TEST(Examples, the_renderer_follows_the_crane_controller) {
   const ReservedPort port;
-  // Constants come again within a second of 50 sets, should the first ones have come too early.
+  // Constants are repeated within a second of 50 sets, in case the first ones were too early.
   Program renderer({RENDERER, port.text(), "60"});
   Program crane({CRANE_CONTROLLER, "127.0.0.1", port.text(), "100000"});
   const std::string out = renderer.rest_of_out();
@@ -38,7 +38,7 @@ TEST(Examples, renderer_prints_what_trk_sends) {
   ASSERT_EQ(maker.wait(), 0);
 
   const ReservedPort port;
-  // Constants come again within a second of 50 sets, should the first ones have come too early.
+  // Constants are repeated within a second of 50 sets, in case the first ones were too early.
   Program reader({RENDERER, port.text(), "60"});
   Program sender({TRK_TOOL, "relay", "file:" + take + "?loop=1&time=now", port.url()});
   const std::string out = reader.rest_of_out();

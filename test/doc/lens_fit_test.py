@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether the tables of doc/lens_fit.md are what lens_fit measures now: lens_fit_test.py LENS_FIT DOC."""
+"""Compares the tables of doc/lens_fit.md with the results of lens_fit: lens_fit_test.py LENS_FIT DOC."""
 
 import csv
 import io
@@ -8,7 +8,7 @@ import re
 import subprocess
 import sys
 
-ABSOLUTE, RELATIVE = 2e-5, 0.05  # pixels; the machine's last digits show in fits that are nearly exact
+ABSOLUTE, RELATIVE = 2e-5, 0.05  # pixels; nearly exact fits depend on the machine's rounding
 
 
 def rows_of(text):
@@ -26,18 +26,18 @@ def is_near(a, b):
 def differences(program, doc):
     for table in ("there", "back"):
         path = doc / f"lens_fit_{table}.csv"
-        told = rows_of(path.read_text(encoding="utf-8"))
+        stated = rows_of(path.read_text(encoding="utf-8"))
         measured = rows_of(subprocess.run([program, table], check=True, capture_output=True, text=True).stdout)
-        if len(told) != len(measured):
-            yield f"{path}: {len(told)} rows, measured were {len(measured)}"
-        for line, (old, new) in enumerate(zip(told, measured), start=2):
+        if len(stated) != len(measured):
+            yield f"{path}: {len(stated)} rows, measured were {len(measured)}"
+        for line, (old, new) in enumerate(zip(stated, measured), start=2):
             for column, value in new.items():
                 if not is_near(old.get(column, ""), value):
                     yield f"{path}:{line}: {column} is {old.get(column)}, measured was {value}"
 
 
 def page_differences(doc):
-    """The table in the page is the worked lenses of the file, to the digits it gives."""
+    """The table of the page agrees with the worked lenses of the file, to its number of digits."""
     page = (doc / "lens_fit.md").read_text(encoding="utf-8")
     for lens in rows_of((doc / "lens_fit_there.csv").read_text(encoding="utf-8")):
         if lens["lens"] != "worked":
@@ -47,11 +47,11 @@ def page_differences(doc):
         if row is None:
             yield f"lens_fit.md: no row {name}"
             continue
-        told = re.findall(r"([0-9.]+) px", row)
-        for text, column in zip(told, ("plumb_bob_2", "plumb_bob_3", "rational_polynomial")):
+        stated = re.findall(r"([0-9.]+) px", row)
+        for text, column in zip(stated, ("plumb_bob_2", "plumb_bob_3", "rational_polynomial")):
             digits = len(text.partition(".")[2])
             if abs(float(text) - float(lens[column])) > 0.5001 * 10 ** -digits:
-                yield f"lens_fit.md: {name} tells {text} px for {column}, which is {lens[column]}"
+                yield f"lens_fit.md: {column} of {name} is {text} px, measured was {lens[column]}"
 
 
 def main():

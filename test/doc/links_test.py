@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Whether the links and pictures of all pages lead somewhere: links_test.py [ROOT].
+"""Checks the links and pictures of README.md, CONTRIBUTING.md and the pages in doc/: links_test.py [ROOT].
 
-Files must exist, with that very case, inside the repository, and be known to git where it is at hand; anchors must be a
-heading of their page, as GitHub names them. Addresses of other machines are not asked for, but must be https. What stands
-between backticks or in fences is no link. Every page of doc/ must be reachable from doc/README.md, every picture in
-doc/images used.
+Files must exist in the repository, with the same case, and be tracked by git if git is available; anchors must be the GitHub
+anchor of a heading of their page. Addresses of other machines are not opened, but must be https. Text between backticks or in
+fences is no link. Every page of doc/ must be reachable from doc/README.md, and every picture in doc/images must be used.
 """
 
 import pathlib
@@ -22,7 +21,7 @@ REFERENCE = re.compile(r"^\[(?P<name>[^\]]+)\]:\s*(?P<target>\S+)", re.MULTILINE
 
 
 def without_code(text):
-    """Fences, code spans and comments blanked, so that lines keep their numbers."""
+    """The text with fences, code spans and comments blanked; lines keep their numbers."""
     kept, fence = [], None
     for line in text.splitlines():
         mark = re.match(r"^ *(`{3,}|~{3,})", line)
@@ -98,15 +97,15 @@ class Pages:
         index = self.root / "doc" / "README.md"
         for page in self.pages:
             if page.parent == index.parent and page != index and page not in self.reached[index]:
-                self.faults.append(f"{page.relative_to(self.root)}: doc/README.md does not lead to it")
+                self.faults.append(f"{page.relative_to(self.root)}: not reachable from doc/README.md")
         used = set().union(*self.reached.values())
         for picture in sorted((self.root / "doc" / "images").glob("*")):
             if picture not in used:
-                self.faults.append(f"{picture.relative_to(self.root)}: no page shows it")
+                self.faults.append(f"{picture.relative_to(self.root)}: no page uses it")
 
 
 def untracked(pages):
-    """Targets that git does not know, which a clone would not have; none where this is no clone, or no git is at hand."""
+    """Targets that git does not track, which are missing in a clone; none if this is no clone or git is not available."""
     if shutil.which("git") is None:
         return []
     listed = subprocess.run(["git", "-C", str(pages.root), "ls-files", "-z"], capture_output=True, check=False)
@@ -114,7 +113,7 @@ def untracked(pages):
         return []
     known = {pages.root / name for name in listed.stdout.decode().split("\0") if name}
     targets = set().union(*pages.reached.values())
-    return [f"{target.relative_to(pages.root)}: linked, and not in git"
+    return [f"{target.relative_to(pages.root)}: linked, but not in git"
             for target in sorted(targets) if target.is_file() and target not in known]
 
 

@@ -16,7 +16,7 @@ sys.path.insert(0, str(DOC))
 from drawings.module_table import MODULES, reachable_from, used_by  # noqa: E402
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
-# Folders of headers of the system, or of libraries that do not belong to ROS.
+# Folders of headers of the system and of libraries that do not belong to ROS.
 WITHOUT_ROS = {"CLI", "Eigen", "arpa", "fast_float", "fmt", "linux", "net", "netinet", "nlohmann", "opencv2",
                "rapidjson", "sys", "tl", "yaml-cpp"}
 

@@ -1,24 +1,24 @@
-"""Command blocks of a documentation page, and what a page says of how each is run.
+"""Command blocks of a documentation page, and the marks that say how each is run.
 
-A page shows commands in fences that say `sh`, and marks each with a comment right before it, which no reader sees:
+A page shows commands in `sh` fences. A comment before each, which readers do not see, is its mark:
 
-    <!-- run -->                          all lines, as one shell runs them, end with exit code 0
+    <!-- run -->                          all lines, run by one shell, end with exit code 0
     <!-- run: prints TEXT -->             and print TEXT
     <!-- run: fails, prints TEXT -->      end with another exit code, and print TEXT
-    <!-- run: background -->              one command in a terminal of its own, which lives until the text says Ctrl-C,
+    <!-- run: background -->              one command in a separate terminal, which runs until the text says Ctrl-C,
                                           and then ends with exit code 0
-    <!-- run: background until TEXT -->   the same; what follows waits for TEXT
-    <!-- run on MACHINE -->               as run, with all of the above after a colon, on one of several machines, which
-                                          several_machines_test.py makes; elsewhere the syntax is checked
-    <!-- run by: FILE -->                 FILE, a script of the repository, has these commands
-    <!-- needs hardware: WHY -->          nobody runs it; its syntax is checked
+    <!-- run: background until TEXT -->   the same; the next block waits for TEXT
+    <!-- run on MACHINE -->               like run, with all of the above after a colon, on one of several machines, which
+                                          several_machines_test.py creates; other tests check the syntax
+    <!-- run by: FILE -->                 FILE, a script of the repository, contains these commands
+    <!-- needs hardware: WHY -->          it is not run; its syntax is checked
 
-A mark before a paragraph that says Ctrl-C is where a reader ends all that runs; nothing else ends it:
+A mark before a paragraph that says Ctrl-C is where a reader ends all background processes; nothing else ends them:
 
     <!-- Ctrl-C -->                       here
-    <!-- Ctrl-C: after each section -->   where each section ends, from here to the next heading of this one's level
+    <!-- Ctrl-C: after each section -->   at the end of each section, from here to the next heading of this level
 
-Any other fence says its language, too, and `<!-- file: NAME -->` before it makes it a file for the commands after it.
+All other fences also need a language. `<!-- file: NAME -->` before one makes it a file for the commands after it.
 """
 
 import dataclasses
@@ -42,7 +42,7 @@ def page_files(root):
 
 
 class PageError(Exception):
-    """What is wrong with a page, with its line."""
+    """An error of a page, with its line."""
 
     def __init__(self, line, why):
         super().__init__(f"line {line}: {why}")
@@ -57,7 +57,7 @@ class Mark:
     text: str = ""  # until, FILE, WHY or NAME
     prints: str = ""
     fails: bool = False
-    machine: str = ""  # on which it runs; empty: on the reader's own
+    machine: str = ""  # on which it runs; empty: on the reader's machine
 
 
 @dataclasses.dataclass(frozen=True)
@@ -73,13 +73,13 @@ class Block:
         return self.language in COMMAND_LANGUAGES
 
     def commands(self):
-        """Its lines as a shell reads them: without comments, continued ones in one."""
+        """Its lines for a shell: without comments, continued lines joined."""
         lines = re.sub(r"\\\n\s*", "", self.text).splitlines()
         return [line.strip() for line in lines if line.strip() and not line.strip().startswith("#")]
 
 
 def parse_mark(line, number):
-    """The mark that a line is, or None. Raises PageError for one that says nothing of the above."""
+    """The mark in a line, or None. Raises PageError for an unknown one."""
     match = _MARK.match(line)
     if not match:
         return None
@@ -97,7 +97,7 @@ def parse_mark(line, number):
         return Mark("run", machine=machine)
     run = _RUN.match(text)
     if not run:
-        raise PageError(number, f"'run: {text}' is none of the ways to run a block")
+        raise PageError(number, f"'run: {text}' is not a known way to run a block")
     if run["background"]:
         return Mark("background", run["until"] or "", machine=machine)
     return Mark("run", prints=run["prints"], fails=bool(run["fails"]), machine=machine)
@@ -105,14 +105,14 @@ def parse_mark(line, number):
 
 def _check(block):
     if not block.language:
-        raise PageError(block.line, "a fence without a language: text, if it is none")
+        raise PageError(block.line, "a fence without a language; use text for plain text")
     if block.is_command():
         if block.mark is None or block.mark.kind == "file":
-            raise PageError(block.line, f"nobody says how these commands are run: {block.commands()[:1]}")
+            raise PageError(block.line, f"no mark says how these commands are run: {block.commands()[:1]}")
         if not block.commands():
             raise PageError(block.line, "a command block without a command")
         if block.mark.kind == "background" and len(block.commands()) != 1:
-            raise PageError(block.line, "one command at a time runs in the background")
+            raise PageError(block.line, "a background block must have one command")
     elif block.mark is not None and block.mark.kind != "file":
         raise PageError(block.line, f"a mark of commands before a fence of '{block.language}'")
 
@@ -201,7 +201,7 @@ class _Reader:
         indent = len(line.expandtabs(4)) - len(line.expandtabs(4).lstrip())
         after_blank = self._at == 0 or not self._lines[self._at - 1].strip()
         if indent >= (8 if self._in_list else 4) and after_blank:
-            raise PageError(self._at + 1, "an indented block: commands and text stand in fences that say what they are")
+            raise PageError(self._at + 1, "an indented block: use a fence with a language")
         if indent == 0:
             self._in_list = False
         if line.startswith("#"):
@@ -212,15 +212,15 @@ class _Reader:
 
 
 def blocks_of(text):
-    """All fences of a page's text, and where Ctrl-C ends what runs, in order. Raises PageError."""
+    """All fences of a page and its Ctrl-C marks, in order. Raises PageError."""
     reader = _Reader(text.splitlines())
     reader.read()
     return reader.blocks
 
 
 def unknown_arguments(command, launch_folder):
-    """Arguments that `command`, if it is a roslaunch of this package, gives and its launch file does not have. roslaunch
-    itself says nothing of them."""
+    """Arguments of `command`, if it is a roslaunch of this package, that its launch file does not have. roslaunch does not
+    report them."""
     launched = re.search(r"\broslaunch trk_bridge (\S+\.launch)\b(.*)", command)
     if not launched:
         return []
@@ -230,7 +230,7 @@ def unknown_arguments(command, launch_folder):
 
 
 def has_commands(script, commands):
-    """Which of the commands a script lacks. `script` is its text with that of the files it sources."""
+    """Commands that are missing in a script. `script` is its text including the files that it sources."""
     text = re.sub(r"\\\n\s*", " ", script).replace('"', "").replace("$(dirname $0)/..", ".")
     text = text.replace("$root", ".").replace("$build", "build")
     lines = [line.split() for line in text.splitlines() if not line.strip().startswith("#")]

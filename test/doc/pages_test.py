@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the command test takes for a command block, and what it refuses."""
+"""Tests of pages.py: which command blocks it finds, and what it refuses."""
 
 import pathlib
 import tempfile
@@ -42,14 +42,14 @@ class Marks(unittest.TestCase):
     def test_a_mark_belongs_to_one_fence(self):
         with self.assertRaisesRegex(PageError, "line 1: a mark without a fence"):
             blocks_of(page("<!-- run -->", "Words.", "```sh", "true", "```"))
-        with self.assertRaisesRegex(PageError, "line 5: nobody says"):
+        with self.assertRaisesRegex(PageError, "line 5: no mark says"):
             blocks_of(page("<!-- run -->", "```sh", "true", "```", "```sh", "true", "```"))
 
 
 class Blocks(unittest.TestCase):
     def test_commands_without_a_mark_are_refused(self):
         for language in ("sh", "bash", "shell", "console"):
-            with self.subTest(language), self.assertRaisesRegex(PageError, "line 2: nobody says"):
+            with self.subTest(language), self.assertRaisesRegex(PageError, "line 2: no mark says"):
                 blocks_of(page("Words.", f"```{language}", "true", "```"))
 
     def test_fences_without_a_language_are_refused(self):
@@ -85,11 +85,11 @@ class Blocks(unittest.TestCase):
     def test_files(self):
         block = blocks_of(page("<!-- file: a.yaml -->", "```yaml", "x: 1", "```"))[0]
         self.assertEqual((block.mark, block.text, block.is_command()), (Mark("file", "a.yaml"), "x: 1\n", False))
-        with self.assertRaisesRegex(PageError, "nobody says"):
+        with self.assertRaisesRegex(PageError, "no mark says"):
             blocks_of(page("<!-- file: a.sh -->", "```sh", "true", "```"))
 
     def test_one_command_in_the_background(self):
-        with self.assertRaisesRegex(PageError, "one command at a time"):
+        with self.assertRaisesRegex(PageError, "must have one command"):
             blocks_of(page("<!-- run: background -->", "```sh", "a", "b", "```"))
 
 

@@ -1,4 +1,4 @@
-"""Runs commands as a person in a few terminals does."""
+"""Runs commands like a person with several terminals."""
 
 import contextlib
 import os
@@ -9,18 +9,18 @@ import subprocess
 import time
 import uuid
 
-LEFT_BY = "TRK_BRIDGE_PAGE_TEST"  # an environment variable that tells what a page's commands have started
+LEFT_BY = "TRK_BRIDGE_PAGE_TEST"  # an environment variable that marks the processes of a page's commands
 
-# What programs, and roslaunch about them, say when something went wrong that no exit code tells.
+# Output of programs and of roslaunch about errors that no exit code reports.
 _BAD_SIGNS = ("process has died", "escalating to SIGTERM", "Traceback (most recent call last)")
 
 
 class CommandError(Exception):
-    """A command did not do what its page says, with what it printed."""
+    """A command did not do what its page says. Contains its output."""
 
 
 def wait_for(condition, seconds):
-    """The first true value of `condition`, asked until then; its last value after `seconds`."""
+    """Polls `condition` and returns its first true value; after `seconds`, its last value."""
     deadline = time.monotonic() + seconds
     while True:
         value = condition()
@@ -30,7 +30,7 @@ def wait_for(condition, seconds):
 
 
 class Command:
-    """A shell with commands of one block, in a process group of its own, as in a terminal of its own."""
+    """A shell with the commands of one block, in a separate process group, like in a separate terminal."""
 
     def __init__(self, text, environment, folder, log):
         self.text = text
@@ -44,7 +44,7 @@ class Command:
         return self._log.read_text(errors="replace")
 
     def code(self):
-        """None while it lives."""
+        """None while it runs."""
         return self._process.poll()
 
     def fail(self, why):
@@ -60,13 +60,13 @@ class Command:
 
     def wait_for_output(self, text, seconds):
         wait_for(lambda: text in self.output() or self.code() is not None, seconds)
-        # What it printed right before its end counts.
+        # Output just before its end is also checked.
         if text not in self.output():
             self.fail(f"has not printed '{text}' within {seconds} s" if self.code() is None else
                       f"has ended with {self.code()} before it printed '{text}'")
 
     def interrupt(self, seconds):
-        """Ctrl-C. It must have lived until here and end well."""
+        """Ctrl-C. It must still be running, and end with exit code 0."""
         if self.code() is not None:
             self.fail(f"has ended by itself with {self.code()}")
         os.killpg(self._process.pid, signal.SIGINT)
@@ -87,10 +87,10 @@ class Command:
 
 
 class Terminals:
-    """The terminals of a reader of one page: what runs in the background, and an environment for all of it."""
+    """The terminals of a reader of one page: its background processes and their environment."""
 
-    PATIENCE = 600  # s, for a command to end or to print what it is waited for, also on a busy machine
-    LEAVING = 10  # s, for what commands have started to end with them
+    PATIENCE = 600  # s, for a command to end or to print the expected text, also on a busy machine
+    LEAVING = 10  # s, for the processes of commands to end with them
 
     def __init__(self, environment, folder, logs):
         self._mark = uuid.uuid4().hex
@@ -124,11 +124,11 @@ class Terminals:
         self.run("bash -n -c " + shlex.quote(text))
 
     def running(self):
-        """What runs in the background, in the order in which it was started."""
+        """The background processes, in the order in which they were started."""
         return [command.text.strip() for command in self._background]
 
     def end_all(self):
-        """Ctrl-C in each terminal, the last first. Nothing may be left of what was started."""
+        """Ctrl-C in each terminal, the last first. No process of the commands may remain."""
         try:
             while self._background:
                 self._background.pop().interrupt(30)
@@ -143,11 +143,11 @@ class Terminals:
                     os.kill(pid, signal.SIGKILL)
 
     def _left(self):
-        """Command lines of the processes that its commands have started and that live, by pid."""
+        """Command lines of the running processes that its commands have started, by pid."""
         wanted = f"{LEFT_BY}={self._mark}".encode()
         found = {}
         for process in pathlib.Path("/proc").glob("[0-9]*"):
-            # Others end, or are not ours to read.
+            # The process has ended, or belongs to another user.
             with contextlib.suppress(OSError):
                 if wanted in (process / "environ").read_bytes().split(b"\0"):
                     line = (process / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")

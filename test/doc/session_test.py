@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the command test sees of commands that do not do what their page says."""
+"""Tests of session.py with commands that do not do what their page says."""
 
 import os
 import pathlib
@@ -63,13 +63,13 @@ class Sessions(unittest.TestCase):
 
     def test_nothing_is_left_behind(self):
         self.terminals.LEAVING = 0.2
-        # In the moment of becoming another program, a process has neither environment nor command line.
+        # During exec, a process has neither environment nor command line.
         self.terminals.run("setsid sleep 1000 >/dev/null 2>&1 & echo $! >pid; "
                            "until [ \"$(cat /proc/$!/comm)\" = sleep ]; do sleep 0.01; done")
         with self.refused("left behind: sleep 1000"):
             self.terminals.end_all()
         command_line = pathlib.Path("/proc", (self.folder / "pid").read_text().strip(), "cmdline")
-        # Gone, or waiting for its parent to ask for its exit code.
+        # It has ended, or is a zombie.
         self.assertTrue(wait_for(lambda: not command_line.exists() or not command_line.read_bytes(), 5))
 
     def test_syntax(self):

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Runs the commands that a page shows for several machines, each machine in a network namespace of its own.
+"""Runs the commands that a page shows for several machines, each machine in a separate network namespace.
 
-several_machines_test.py --root REPOSITORY --devel DEVEL [PAGE], by default doc/several_machines.md. Machines are named by
-the marks `run on MACHINE` (pages.py) and have the addresses that they export as ROS_IP. They are connected by a bridge,
-which is in another namespace: nothing reaches this machine's own networks, and everything ends with the processes that hold
-the namespaces. What a block exports is set in all later blocks of its machine. Exits 77 where namespaces cannot be made.
+several_machines_test.py --root REPOSITORY --devel DEVEL [PAGE], by default doc/several_machines.md. The names of machines are
+in the marks `run on MACHINE` (pages.py); their addresses are those that they export as ROS_IP. They are connected by a bridge
+in another namespace: nothing reaches the networks of this machine, and everything ends with the processes that hold the
+namespaces. Variables that a block exports are set in all later blocks of its machine. Exits 77 if namespaces cannot be
+created.
 """
 
 import argparse
@@ -23,15 +24,15 @@ import pages
 import session
 
 SKIPPED = 77  # SKIP_RETURN_CODE of ctest
-PREFIX = 24  # bits of the network that all machines share
+PREFIX = 24  # bits of the common network
 
 
 class CannotMakeNamespaces(Exception):
-    """Why not."""
+    """Why namespaces cannot be created."""
 
 
 class Namespace:
-    """A network namespace with nothing but its loopback, which ends with this process."""
+    """A network namespace that has only a loopback interface, and ends with this process."""
 
     def __init__(self):
         command = ["setpriv", "--pdeathsig", "KILL", "unshare", "--net", "sleep", "infinity"]
@@ -51,7 +52,7 @@ class Namespace:
         return False
 
     def enter(self):
-        """What runs the command after it in here."""
+        """Prefix of commands that run in this namespace."""
         return ["nsenter", f"--net=/proc/{self.pid}/ns/net"]
 
     def ip(self, *lines):
@@ -142,20 +143,20 @@ def run_page(blocks, machines):
             print(f"ok      line {block.line} on {block.mark.machine}: {block.commands()[0]}", flush=True)
     running = [command for machine in machines.values() for command in machine.terminals.running()]
     if running:
-        raise session.CommandError("its text does not end what runs: " + "; ".join(running))
+        raise session.CommandError("its text does not say Ctrl-C for background processes: " + "; ".join(running))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--root", type=pathlib.Path, required=True, help="the repository")
-    parser.add_argument("--devel", type=pathlib.Path, required=True, help="the devel space of a build of it")
+    parser.add_argument("--devel", type=pathlib.Path, required=True, help="the devel space of a build of the repository")
     parser.add_argument("page", nargs="?", type=pathlib.Path, help="default: doc/several_machines.md")
     options = parser.parse_args()
     page = options.page or options.root / "doc" / "several_machines.md"
     blocks = pages.blocks_of(page.read_text())
     addresses = addresses_of(blocks)
     environment = commands_test.environment_of(options.devel.parent, options.devel.resolve(), display="")
-    del environment["ROS_IP"]  # the page's own commands set it
+    del environment["ROS_IP"]  # set by the page's commands
 
     with tempfile.TemporaryDirectory(prefix="trk_bridge_machines.") as folder, contextlib.ExitStack() as stack:
         try:

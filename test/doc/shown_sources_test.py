@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether the pages show the programs of doc/examples as they are, and all of them."""
+"""Checks that the pages show all programs of doc/examples, unchanged."""
 
 import pathlib
 import sys
@@ -18,7 +18,7 @@ def main():
             if block.text in examples:
                 shown.add(examples[block.text])
             else:
-                faults.append(f"{page.name}:{block.line}: is no program of doc/examples, or an old state of one")
+                faults.append(f"{page.name}:{block.line}: not a program of doc/examples, or an old version of one")
     faults += [f"doc/examples/{name}: no page shows it" for name in sorted(set(examples.values()) - shown)]
     for fault in faults:
         print(fault, file=sys.stderr)

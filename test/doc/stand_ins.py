@@ -1,4 +1,4 @@
-"""What stands in for the things of a page that a test machine cannot share: all that is changed in its commands."""
+"""Replacements in the commands of a page, for resources that a test machine cannot share. Nothing else is changed."""
 
 import contextlib
 import ctypes
@@ -24,8 +24,8 @@ _reserved_ports = []  # locks, held until this process ends
 
 
 def free_port():
-    """A port below those that the kernel gives away by itself, free for UDP and TCP, and given to no other test while this
-    process runs (test/support/reserved_port.h)."""
+    """A port below the range of ephemeral ports, free for UDP and TCP, which no other test gets while this process runs
+    (test/support/reserved_port.h)."""
     for port in range(20000, 30000):
         with contextlib.ExitStack() as lock, contextlib.suppress(OSError):
             file = lock.enter_context(open(f"/tmp/trk_bridge_test_port.{port}", "a"))
@@ -39,10 +39,10 @@ def free_port():
 
 
 class FreeSlot:
-    """A shared memory slot that nobody uses; neither its file nor its segment is left behind."""
+    """An unused shared memory slot; its file and its segment are removed at the end."""
 
     def __init__(self):
-        # From the end: the field takes low slots. The locks are those of the unit tests.
+        # From the end: existing programs use low slots. The locks are those of the unit tests.
         for number in range(61, -1, -1):
             lock = os.open(f"/tmp/trk_bridge_test_slot.{number}", os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o666)
             with contextlib.suppress(BlockingIOError):
@@ -72,7 +72,7 @@ class FreeSlot:
 
 
 def stand_ins(root, build, slot):
-    """The table for one page. Every fixed port has the same stand-in all over the page."""
+    """The replacements for one page. A fixed port has the same replacement everywhere in the page."""
     build = shlex.quote(str(build))
     ports = [StandIn(rf"\b{port}\b", str(free_port()), "ports that others may use here") for port in range(7000, 7004)]
     return ports + [
@@ -85,12 +85,12 @@ def stand_ins(root, build, slot):
         StandIn(r"(?<![\w/.])\./scripts/", shlex.quote(str(root)) + "/scripts/", "commands run in an empty folder"),
         StandIn(r"(?<![\w/.])doc/(?=\w+\.py)", shlex.quote(str(root)) + "/doc/", "commands run in an empty folder"),
         StandIn(r"(?<![\w/.])test/(?=data/|rviz/)", shlex.quote(str(root)) + "/test/", "the same"),
-        StandIn(r"(?<![\w/.])build/(?=devel/|doc/)", f"{build}/", "the build that the tests are of"),
+        StandIn(r"(?<![\w/.])build/(?=devel/|doc/)", f"{build}/", "the build that is tested"),
         StandIn(r"(?<=--install )build\b", build, "the same"),
         StandIn(r"(?<=--build )build\b", build, "the same"),
-        StandIn(r"(?m)^roscore$", 'roscore -p "${ROS_MASTER_URI##*:}"', "the page's own master; roscore does not look"),
-        # That catkin finds, configures and builds the package in a workspace is what differs from other builds.
-        StandIn(r"(?m)^catkin_make$", "catkin_make trk_bridge_wire", "the whole build takes minutes"),
+        StandIn(r"(?m)^roscore$", 'roscore -p "${ROS_MASTER_URI##*:}"', "the page's master; roscore ignores ROS_MASTER_URI"),
+        # One target is enough: only that catkin finds, configures and builds the package in a workspace is special.
+        StandIn(r"(?m)^catkin_make$", "catkin_make trk_bridge_wire", "a complete build takes minutes"),
     ]
 
 

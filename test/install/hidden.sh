@@ -1,7 +1,8 @@
-# hidden.sh FOLDER... -- COMMAND...: runs the command where the folders are empty. For a mount namespace of its own.
+# hidden.sh FOLDER... -- COMMAND...: runs the command while the folders look empty. To be called in a private mount
+# namespace.
 set -eu
 while [ "$1" != -- ]; do
-  mkdir -p "$1"  # one may lie in another
+  mkdir -p "$1"  # one may be in another
   mount -t tmpfs none "$1"
   shift
 done

@@ -1,6 +1,6 @@
-# Installs to an empty place, moves that, and hides the source and the build, where the system lets a process have mounts of
-# its own: then builds and runs programs of another project that finds the package there, by CMake and by pkg-config, and
-# uses what is installed.
+# Installs to an empty folder, moves it, and hides the source and the build if private mounts are permitted. Then builds
+# and runs programs of another project, which find the package with CMake and with pkg-config, and uses the installed
+# files.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -9,13 +9,13 @@ function(run)
   endif()
 endfunction()
 
-# Outside of the sources: rospack would take an installation in there for another package of the same name.
+# Outside of the sources, where rospack would find the installation as another package of the same name.
 execute_process(COMMAND mktemp -d OUTPUT_VARIABLE PLACE OUTPUT_STRIP_TRAILING_WHITESPACE)
 set(PREFIX ${PLACE}/prefix)
 set(CONSUMER_BUILD ${PLACE}/build)
 unset(ENV{DESTDIR})
 run(${CMAKE_COMMAND} -DCMAKE_INSTALL_PREFIX=${PREFIX} -P ${BUILD}/cmake_install.cmake)
-# The libraries are found where they are, not where they were put first.
+# The libraries are found at their current place, not at the original one.
 file(RENAME ${PREFIX} ${PREFIX}_moved)
 set(PREFIX ${PREFIX}_moved)
 file(COPY ${SOURCE}/test/install/ ${SOURCE}/test/data/field/takes/euler.trk DESTINATION ${PLACE}/test)

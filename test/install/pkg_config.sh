@@ -1,4 +1,4 @@
-# pkg_config.sh TEST_FOLDER PLACE: programs compile, link and run by what pkg-config says alone.
+# pkg_config.sh TEST_FOLDER PLACE: programs compile, link and run with only the flags of pkg-config.
 set -eu
 consumer=$1/consumer
 cd "$2"

@@ -1,4 +1,4 @@
-# use.sh TEST_FOLDER: what is installed below $PREFIX works by itself, from PATH.
+# use.sh TEST_FOLDER: the installation below $PREFIX works alone, from PATH.
 set -eu
 PATH=$PREFIX/bin:$PATH
 [ "$(command -v trk)" = "$PREFIX/bin/trk" ]
@@ -8,7 +8,7 @@ trk presets | grep -q disguise
 grep -q '^.TH TRK 1' "$PREFIX/share/man/man1/trk.1"
 bash --norc -c '. "$PREFIX/share/bash-completion/completions/trk"; complete -p trk' >/dev/null
 head -n 1 "$PREFIX/share/zsh/site-functions/_trk" | grep -qx '#compdef trk'
-# The libraries that programs and libraries use are those of this installation.
+# Programs and libraries use the libraries of this installation.
 find "$PREFIX" -type f \( -name '*.so*' -o -perm -u+x \) | while read -r file; do
   case $(head -c 4 "$file" | tr -d '\0') in *ELF) ;; *) continue ;; esac
   ldd "$file" | awk -v prefix="$PREFIX/" -v file="$file" '

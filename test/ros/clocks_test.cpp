@@ -1,4 +1,4 @@
-// Clocks that are wrong, are set or stand still: what ros_to_trk makes of tf then, and what every node says.
+// Clocks that are wrong, are set or stand still: what ros_to_trk sends from tf then, and what every node reports.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -23,7 +23,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
-/// What a clock that is set may cost: 1 s, and the pauses of a busy machine.
+/// The longest interruption when a clock is set: 1 s, and the pauses of a busy machine.
 constexpr duration<double> most_pause{2.5};
 
 geometry_msgs::TransformStamped link(const std::string& parent, const std::string& child, double stamp, double x) {
@@ -38,7 +38,7 @@ geometry_msgs::TransformStamped link(const std::string& parent, const std::strin
 
 double now() { return ::ros::Time::now().toSec(); }
 
-/// A crane on tf: studio -> rail (static), rail -> arm -> camera, at 50 Hz by a clock of its own.
+/// A crane on tf: studio -> rail (static), rail -> arm -> camera, at 50 Hz by the crane's clock.
 class CraneOnTf : public NodeTest<nodes::RosToTrk> {
  protected:
   CraneOnTf() : NodeTest("ros_to_trk") {
@@ -61,7 +61,7 @@ class CraneOnTf : public NodeTest<nodes::RosToTrk> {
     broadcaster.sendTransform(
         {link(camera + "_rail", camera + "_arm", stamp, 0), link(camera + "_arm", camera, stamp, x)});
   }
-  /// Begins to move by the clock of the crane.
+  /// Starts moving by the clock of the crane.
   void move(std::function<double()> crane_clock) {
     moving.reset();
     moving.emplace(50, [this, crane_clock = std::move(crane_clock)] { send(crane_clock(), ++at); });
@@ -70,7 +70,7 @@ class CraneOnTf : public NodeTest<nodes::RosToTrk> {
   void move(double offset) {
     move([offset] { return now() + offset; });
   }
-  /// Whether poses go out for `time`, and after it, without a longer pause than `most_pause`.
+  /// Whether poses are sent for `time`, and after it, without a pause longer than `most_pause`.
   ::testing::AssertionResult goes_on(duration<double> time = duration<double>(1.5)) {
     const auto begin = Clock::now();
     auto last = begin;
@@ -86,10 +86,10 @@ class CraneOnTf : public NodeTest<nodes::RosToTrk> {
     std::printf("longest pause: %.0f ms\n", longest.count() * 1000);
     if (longest <= most_pause) return ::testing::AssertionSuccess();
     const auto* status = diagnostics.find(status_name());
-    return ::testing::AssertionFailure() << "nothing came for " << longest.count() << " s, the node says "
+    return ::testing::AssertionFailure() << "nothing was received for " << longest.count() << " s, the node reports "
                                          << (status == nullptr ? "nothing" : status->message);
   }
-  /// That nothing came twice, out of order or from anywhere else.
+  /// That no pose was received twice, out of order or from another sender.
   void expect_true_poses() {
     ASSERT_FALSE(receiver.params.empty());
     for (std::size_t i = 1; i < receiver.params.size(); ++i) {
@@ -135,7 +135,7 @@ TEST_F(CraneOnTf, AClockThatIsSetBackAndForthIsFollowed) {
   for (const double offset : {-60.0, 0.0, 3600.0, -1e6, 5.0, 0.0}) {
     move(offset);
     ASSERT_TRUE(goes_on(duration<double>(2))) << offset;
-    // From a minute ago to now is no jump that tf stops at.
+    // A jump from a minute ago to now does not stop tf.
     if (offset != 0 || restarts != 1) ++restarts;
     EXPECT_TRUE(diagnostics.becomes(status_name(), "tf restarts", std::to_string(restarts))) << offset;
     EXPECT_NEAR(std::stod(diagnostics.value(status_name(), "tf ahead of ROS time (s)")), offset, 2);
@@ -173,7 +173,7 @@ class SimulatedTime : public CraneOnTf {
     ::ros::Time::init();
   }
 
-  /// A bag of 3 s that plays in a loop, on its own clock.
+  /// A bag of 3 s that plays in a loop, with its clock.
   void play() {
     move([begin = Clock::now()] {
       const auto time = ::ros::Time(start + std::fmod(duration<double>(Clock::now() - begin).count(), 3));

@@ -1,4 +1,4 @@
-// What goes wrong on the way must not reach tf, and must be reported.
+// Faulty records must not reach tf, and must be reported.
 #include <sensor_msgs/CameraInfo.h>
 #include <trk_bridge/CameraConstants.h>
 #include <trk_bridge/CameraParams.h>
@@ -181,7 +181,7 @@ TEST_F(Conditions, LateConstants) {
   EXPECT_TRUE(counters_are({2}));
   EXPECT_TRUE(eventually([this] { return infos->messages.size() == 1 && constants->messages.size() == 1; }));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "constants known", "received"));
-  // Latched: who comes late learns them, too.
+  // Latched: a later subscriber also receives them.
   Recorder<trk_bridge::CameraConstants> late(name_space + "/constants");
   EXPECT_TRUE(eventually([&late] { return late.messages.size() == 1; }));
   EXPECT_EQ(constants->messages.size(), 1u) << "unchanged constants are not published again";

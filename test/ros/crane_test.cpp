@@ -1,4 +1,4 @@
-// The crane's way out and back, as launch/crane.launch makes it: joints, tf, trk over UDP, tf.
+// The crane's path out and back, as in launch/crane.launch: joints, tf, trk over UDP, tf.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -22,9 +22,9 @@
 namespace trk_bridge::test {
 namespace {
 
-constexpr double metres = 1e-4;        // may lie between what the crane did and what came back
-constexpr double degrees = 1e-3;       // so may these
-constexpr double pixels = 1e-3;        // and these of every element of K
+constexpr double metres = 1e-4;        // largest difference between the crane and what is received back
+constexpr double degrees = 1e-3;       // likewise
+constexpr double pixels = 1e-3;        // likewise, of every element of K
 const ::ros::Duration long_enough(5);  // of moving samples
 constexpr std::size_t enough = 120;    // samples
 
@@ -48,14 +48,14 @@ class CraneRoundTrip : public ::testing::TestWithParam<const char*> {
         listener_(transforms_),
         launched_("crane.launch", {"rviz:=false", "endpoint:=" + port_.url(), std::string("preset:=") + GetParam()}) {}
 
-  /// Everything that is compared has come once: the nodes have found each other.
+  /// Everything that is compared has been received once: the nodes are connected.
   bool all_come() const {
     return !sent_.messages.empty() && !returned_.messages.empty() && !crane_info_.messages.empty() &&
            !returned_info_.messages.empty() && transforms_.canTransform("studio", "camera_optical", ::ros::Time()) &&
            transforms_.canTransform("studio", "returned_optical", ::ros::Time());
   }
 
-  /// Both cameras have moved long enough, and were told often enough meanwhile.
+  /// Both cameras have moved long enough, and enough samples were received meanwhile.
   bool moved() const {
     const auto spans = [](const auto& messages) {
       return messages.size() > 2 * enough && messages.back().header.stamp - messages.front().header.stamp > long_enough;
@@ -63,7 +63,7 @@ class CraneRoundTrip : public ::testing::TestWithParam<const char*> {
     return spans(sent_.messages) && spans(returned_.messages);
   }
 
-  /// All but the crane's CameraInfos, for one of before may be the newest when a set is sent.
+  /// Everything except the crane's CameraInfos, because an earlier one may be the newest when a set is sent.
   void forget() {
     sent_.messages.clear();
     returned_.messages.clear();
@@ -80,13 +80,14 @@ class CraneRoundTrip : public ::testing::TestWithParam<const char*> {
     return times;
   }
 
-  /// Of a frame in the studio; none when tf does not tell it.
+  /// Of a frame in the studio; none if tf does not contain it.
   std::optional<Eigen::Isometry3d> pose(const std::string& frame, const ::ros::Time& stamp) {
     if (!eventually([&] { return transforms_.canTransform("studio", frame, stamp); })) return std::nullopt;
     return ros1::to_isometry(transforms_.lookupTransform("studio", frame, stamp).transform);
   }
 
-  /// How much older than its pose the crane's CameraInfo is that came back with it; none when it is another one.
+  /// By how much the crane's CameraInfo that was received back with a pose is older than the pose; none if it is
+  /// another one.
   std::optional<::ros::Duration> lag_of_lens(const ::ros::Time& of_crane, const ::ros::Time& of_returned) {
     const auto& infos = returned_info_.messages;
     const auto earlier = [](const auto& info, const ::ros::Time& time) { return info.header.stamp < time; };
@@ -108,7 +109,7 @@ class CraneRoundTrip : public ::testing::TestWithParam<const char*> {
     std::size_t late_lenses = 0;  ///< of a CameraInfo that is older than 0.1 s
     Eigen::AlignedBox3d covered;
 
-    /// On a busy machine a CameraInfo may be late, and the one before goes with the pose, but not for ever.
+    /// On a busy machine a CameraInfo may be late, and the pose is sent with the previous one, but not for ever.
     bool lenses_are_on_time() const { return late_lenses == 0 && with_their_lens >= sets * 9 / 10; }
   };
 
@@ -172,7 +173,7 @@ TEST(Crane, UsesJointStatesOfAnotherNode) {
     publisher.publish(all_zero);
     return returned.messages.size() > 20;
   })) << launched.end();
-  // The arm level and drawn in, the camera looking along it, hung below its end.
+  // The arm is level and retracted; the camera hangs below its end and looks along it.
   const auto& camera = returned.messages.back();
   EXPECT_NEAR(camera.x, -2, 1e-9);
   EXPECT_NEAR(camera.y, -3 + 5 + 0.12, 1e-9);

@@ -1,4 +1,4 @@
-// delay_meter as a node: from topics to a delay and diagnostics.
+// The node delay_meter: from topics to a delay and diagnostics.
 #include <optional>
 #include <string>
 
@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr double true_delay = 0.033;  // s
-constexpr double begin = 5000;        // s, of stamps: they need not be now
+constexpr double begin = 5000;        // s, of stamps, which need not be the current time
 
 class DelayMeter : public NodeTest<nodes::DelayMeter> {
  protected:
@@ -70,12 +70,12 @@ TEST_F(DelayMeter, MeasuresTheDelayAndReportsItUntilThereIsAnother) {
   Recorder<std_msgs::Float64> delays(node_name + "/delay");
   for (int field = 0; field < 50 * (quick_pans_end + 2); ++field) {
     publish(field);
-    // No more than fit in its queue.
+    // Not more than its queue can hold.
     eventually([] { return true; });
     ::ros::getGlobalCallbackQueue()->callAvailable();
   }
   ASSERT_TRUE(eventually([&] { return !delays.messages.empty(); }));
-  // While it took what came it may have measured a part.
+  // It may have measured a part while it received the rest.
   ASSERT_TRUE(took_all_frames());
   const std::size_t measured = delays.messages.size();
   ASSERT_TRUE(eventually([&] { return delays.messages.size() > measured; }));
@@ -84,7 +84,7 @@ TEST_F(DelayMeter, MeasuresTheDelayAndReportsItUntilThereIsAnother) {
   EXPECT_THAT(diagnostics.value(status_name(), "setting"), HasSubstr("for ros_to_trk: delay:=0.033"));
   EXPECT_EQ(diagnostics.value(status_name(), "video (Hz)"), "25.00");
 
-  // What is no picture is counted, and named.
+  // Invalid pictures are counted and reported.
   sensor_msgs::Image image;
   image.header.stamp = ::ros::Time(begin + 100);
   image.encoding = "sepia";

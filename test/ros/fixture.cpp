@@ -95,7 +95,7 @@ CameraTest::CameraTest(const std::string& node)
 
 ::testing::AssertionResult CameraTest::reports_on(const std::string& subject) {
   const std::string name = status_name(subject);
-  // Values come once its threads have started; before there is only "Node starting up".
+  // Values exist after its threads have started; before that there is only "Node starting up".
   const auto reported = [&] {
     const auto* status = diagnostics.find(name);
     return status != nullptr && !status->values.empty();

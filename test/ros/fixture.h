@@ -1,4 +1,4 @@
-// What tests of whole nodes need: a node in the process of the test, what it publishes, and places to send to.
+// For tests of complete nodes: a node in the process of the test, what it publishes, and ports to send to.
 #pragma once
 
 #include <chrono>
@@ -60,7 +60,7 @@ class DiagnosticsRecorder {
   explicit DiagnosticsRecorder(const std::string& topic);
   std::string topic() const { return subscriber_.getTopic(); }
   const diagnostic_msgs::DiagnosticStatus* find(const std::string& name) const;
-  /// "" when there is no such status or key.
+  /// "" if there is no such status or key.
   std::string value(const std::string& name, const std::string& key) const;
   /// Waits until the value is this.
   ::testing::AssertionResult becomes(const std::string& name, const std::string& key, const std::string& expected);
@@ -88,7 +88,7 @@ class Tracker {
   std::uint16_t port_;
 };
 
-/// One camera in a namespace of its own, for one test, and the parameters of its node.
+/// One camera in a separate namespace for one test, and the parameters of its node.
 class CameraTest : public ::testing::Test {
  protected:
   explicit CameraTest(const std::string& node);
@@ -109,16 +109,16 @@ class CameraTest : public ::testing::Test {
   std::string camera;      ///< its name, unique in this run
   std::string name_space;  ///< "/" + camera
   std::string node_name;
-  /// On a topic of the camera's own, which has no other publisher before or after.
+  /// On a topic of the camera, which has no other publisher before or after.
   DiagnosticsRecorder diagnostics;
 };
 
-/// The node runs in the process of the test. What it publishes reaches subscribers of the test from the moment that
-/// both are there: neither waits for the master. Its callbacks come while the test waits, in eventually().
+/// The node runs in the process of the test. Subscribers of the test receive its messages as soon as both exist:
+/// neither waits for the master. Its callbacks are called while the test waits in eventually().
 template <typename Node>
 class NodeTest : public CameraTest {
  protected:
-  /// `name` is the program's.
+  /// `name` is the name of the program.
   explicit NodeTest(const std::string& name) : CameraTest(name) {}
 
   void start() {

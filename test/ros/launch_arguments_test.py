@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What roslaunch says of arguments that our launch files do not have, and of those that they have."""
+"""Known and unknown arguments of this package's launch files."""
 
 import pathlib
 import subprocess
@@ -9,7 +9,7 @@ LAUNCH = pathlib.Path(__file__).resolve().parents[2] / "launch"
 
 
 def launched(*words):
-    """--nodes reads the files as a start does, and starts nothing."""
+    """--nodes reads the files like a start, but starts nothing."""
     return subprocess.run(["roslaunch", "--nodes", *words], capture_output=True, text=True, check=False)
 
 

@@ -1,4 +1,4 @@
-// The launch files, started by the test's own one with a take that plays for ever, and its nodelet manager.
+// The launch files, included by the test's launch file with a take that is repeated for ever, and a nodelet manager.
 #include <optional>
 #include <string>
 #include <utility>
@@ -120,7 +120,7 @@ TEST_F(TrkToRosInManager, PublishesUntilItIsUnloadedAndCanBeLoadedAgain) {
     }));
     EXPECT_TRUE(diagnostics.becomes(status_name(), "received", std::to_string(counter)));
     counter = 0;
-    ASSERT_TRUE(unload()) << "which joins its reader";
+    ASSERT_TRUE(unload()) << "unloading joins its reader";
   }
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whether the layouts for other programs name topics and fields that there are."""
+"""Checks that the layouts for other programs use existing topics and fields."""
 
 import json
 import pathlib

@@ -1,4 +1,4 @@
-// Every program of tests is a node of a ROS master of its own.
+// Every test program is a node with a separate ROS master.
 #include <cstdio>
 #include <cstdlib>
 
@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   const trk_bridge::test::TemporaryDirectory logs;
   ::setenv("ROS_MASTER_URI", uri->c_str(), /*overwrite=*/1);
   ::setenv("ROS_LOG_DIR", logs.path().c_str(), /*overwrite=*/1);
-  // Who asks for no other address gets one that every machine has.
+  // The default is an address that every machine has.
   if (std::getenv("ROS_HOSTNAME") == nullptr) ::setenv("ROS_IP", "127.0.0.1", /*overwrite=*/0);
   ::ros::init(argc, argv, "test");
   const ::ros::NodeHandle keeps_ros_running;

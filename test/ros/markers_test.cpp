@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-/// A lens that bends, off the axis.
+/// A lens with distortion and an axis off the centre.
 wire::CameraParams bent(std::uint64_t counter, std::uint32_t id = 0) {
   auto params = test::params(counter, id);
   params.fov = 8;
@@ -162,8 +162,8 @@ TEST_F(Markers, OfALensThatIsTooWideAreNotDrawnAndTheReasonIsReported) {
   tracker->send(wide);
   EXPECT_TRUE(eventually([&] { return action(name + "/frustum") == Marker::DELETE; }));
   EXPECT_TRUE(diagnostics.reports(status_name(name), diagnostic_msgs::DiagnosticStatus::WARN,
-                                  "no markers: the image extends more than 89 degrees from the optical axis"));
-  EXPECT_EQ(infos[name]->messages.size(), 2u) << "the lens is one all the same";
+                                  "no markers: the image reaches farther than 89 degrees off the optical axis"));
+  EXPECT_EQ(infos[name]->messages.size(), 2u) << "the lens is valid nevertheless";
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A ROS master that ends and starts again: nodes go on for those that know them, and say that others do not find them.
+// A ROS master that ends and starts again: nodes keep their connections, and report that they cannot be found by
+// others.
 #include <cstdio>
 #include <cstdlib>
 
@@ -16,7 +17,7 @@ using diagnostic_msgs::DiagnosticStatus;
 
 std::string master_port;
 
-/// roscore, as its user starts it.
+/// roscore, as a user starts it.
 class Roscore {
  public:
   Roscore() : program_({"/usr/bin/env", "roscore", "-p", master_port}) {
@@ -55,7 +56,7 @@ class Master : public NodeProcessTest {
         })) {
       return ::testing::AssertionSuccess();
     }
-    return ::testing::AssertionFailure() << "no params come any more";
+    return ::testing::AssertionFailure() << "no more params are received";
   }
 
   Recorder<trk_bridge::CameraParams> params;
@@ -65,7 +66,7 @@ class Master : public NodeProcessTest {
 
 TEST_F(Master, ARestartIsReportedByNodesAndNodeletsThatContinue) {
   ASSERT_TRUE(starts());
-  // In the process of the test as in that of a nodelet manager.
+  // In the process of the test, like in a nodelet manager.
   ::ros::param::set(name_space + "/other/source", any_udp_port);
   ::ros::param::set(name_space + "/other/diagnostic_period", 0.1);
   const nodes::TrkToRos other(::ros::NodeHandle(name_space + "_other", {{"/diagnostics", diagnostics.topic()}}),

@@ -21,7 +21,7 @@ void NodeProcessTest::start() {
   auto told = reports_on(camera);
   if (!told) {
     node->signal(SIGKILL);
-    told << "; it said: " << node->rest_of_err();
+    told << "; output: " << node->rest_of_err();
   }
   return told;
 }

@@ -1,4 +1,4 @@
-// A node as a process of its own, where how it starts and ends is what is tested.
+// A node as a separate process, for tests of its start and end.
 #pragma once
 
 #include <chrono>
@@ -19,9 +19,9 @@ class NodeProcessTest : public CameraTest {
   void start();
   /// Starts it and waits until it has reported the state of its camera.
   ::testing::AssertionResult starts();
-  /// Expects it to end with 1 at once and returns what it said.
+  /// Expects it to end with 1 at once and returns its output.
   std::string refusal();
-  /// Ends it as Ctrl-C does; how long that took.
+  /// Ends it like Ctrl-C; returns how long that took.
   std::chrono::nanoseconds interrupted();
 
   std::string program_path;

@@ -1,4 +1,4 @@
-// ros_to_trk: what goes in as messages, what comes out over UDP, shared memory and files; how it starts and ends.
+// ros_to_trk: messages as input; UDP, shared memory and files as output; its start and end.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -80,7 +80,7 @@ class FromParams : public RosToTrkTest {
   }
 
   void publish(const wire::CameraParams& record) const { publisher->publish(record); }
-  /// Waits until they are known to the node.
+  /// Waits until the node knows them.
   void publish(const wire::CameraConstants& record) {
     publisher->publish(record);
     ASSERT_TRUE(diagnostics.becomes(status_name(), "constants known", "received"));
@@ -174,7 +174,7 @@ TEST_F(FromParams, ARemovedSegmentIsRecreatedWithItsConstants) {
     return has_constants && has_params;
   }));
   ASSERT_TRUE(eventually([&] { return receiver.is_at(counter); }));
-  EXPECT_EQ(receiver.params.size(), counter) << "not one is missing";
+  EXPECT_EQ(receiver.params.size(), counter) << "none is missing";
 }
 
 TEST_F(FromParams, AMessageIsDelayedAccordingToItsStamp) {
@@ -195,7 +195,7 @@ TEST_F(FromParams, AMessageIsDelayedAccordingToItsStamp) {
     receiver.params.clear();
     return delayed.size() >= 30 && at_once.size() >= 30;
   }));
-  EXPECT_EQ(at_once.front().euler.x, 1) << "this one is sent as it comes";
+  EXPECT_EQ(at_once.front().euler.x, 1) << "this one is sent at once";
   EXPECT_EQ(at_once.front().counter, 1u);
   for (std::size_t i = 1; i < delayed.size(); ++i) {
     EXPECT_EQ(delayed[i].counter, delayed[i - 1].counter + 1);
@@ -203,7 +203,7 @@ TEST_F(FromParams, AMessageIsDelayedAccordingToItsStamp) {
   }
 }
 
-/// As a process: the limit that stands for the full disk holds for all files of a process.
+/// As a process: the file size limit that replaces a full disk affects all files of a process.
 class OnAFullDisk : public NodeProcessTest {
  protected:
   OnAFullDisk() : NodeProcessTest(ROS_TO_TRK) {}
@@ -213,7 +213,7 @@ class OnAFullDisk : public NodeProcessTest {
 };
 
 TEST_F(OnAFullDisk, AFailedSinkDoesNotAffectOthersAndRecovers) {
-  // The limit that stands for the full disk must not end the node.
+  // The file size limit that replaces a full disk must not end the node.
   ::signal(SIGXFSZ, SIG_IGN);
   const std::string file = "file:" + folder / "take.trk";
   set("sinks", std::vector<std::string>{file, receiver.url()});
@@ -232,7 +232,7 @@ TEST_F(OnAFullDisk, AFailedSinkDoesNotAffectOthersAndRecovers) {
     });
   };
   const auto sent_to_file = [&] { return std::stoul("0" + diagnostics.value(status_name(file), "sent")); };
-  // More than the node's log has, which the limit holds for as well.
+  // More than the size of the node's log, which the limit also affects.
   ASSERT_TRUE(send_until([&] { return sent_to_file() > 600; }));
   const rlimit full{20'000, RLIM_INFINITY};
   ASSERT_EQ(::prlimit(node->pid(), RLIMIT_FSIZE, &full, nullptr), 0);
@@ -251,7 +251,7 @@ TEST_F(OnAFullDisk, AFailedSinkDoesNotAffectOthersAndRecovers) {
     return status->level == DiagnosticStatus::OK;
   }));
   ASSERT_TRUE(eventually([&] { return receiver.is_at(counter); }));
-  EXPECT_EQ(receiver.params.size(), counter) << "not one is missing";
+  EXPECT_EQ(receiver.params.size(), counter) << "none is missing";
   interrupted();
   const auto take = file::read_take(folder / "take.trk");
   EXPECT_EQ(take.params.back().counter, counter);

@@ -1,4 +1,4 @@
-// ros_to_trk with `input: tf`: what goes in as tf and CameraInfo, what comes out over UDP, and when.
+// ros_to_trk with `input: tf`: tf and CameraInfo as input; what is sent over UDP, and when.
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -50,7 +50,7 @@ class FromTf : public RosToTrkTest {
     broadcaster.sendTransform(m);
   }
 
-  /// Moves the camera until as many sets as these have come.
+  /// Moves the camera until this many sets have been received.
   bool moves(std::size_t sets) {
     return eventually([&] {
       broadcast(camera, ++at);
@@ -92,7 +92,7 @@ TEST_F(FromTf, StaleTfIsNeverSentAgain) {
   ASSERT_TRUE(eventually([&] {
     receiver.take();
     return receiver.params.back().euler.x == at;
-  })) << "the last pose came out";
+  })) << "the last pose was sent";
   const auto sets = receiver.params.size();
   EXPECT_TRUE(diagnostics.becomes(status_name(), "sets", std::to_string(sets)));
   EXPECT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "tf is stale, its newest pose is of "));
@@ -101,10 +101,10 @@ TEST_F(FromTf, StaleTfIsNeverSentAgain) {
   for (std::size_t i = 0; i < sets; ++i) {
     EXPECT_EQ(receiver.params[i].counter, i + 1);
     const double before = i == 0 ? 0 : receiver.params[i - 1].euler.x;
-    EXPECT_GT(receiver.params[i].euler.x, before) << "every set is another pose";
+    EXPECT_GT(receiver.params[i].euler.x, before) << "every set has a different pose";
   }
   ASSERT_TRUE(moves(sets + 5));
-  EXPECT_EQ(receiver.params[sets].counter, sets + 1) << "the counter goes on";
+  EXPECT_EQ(receiver.params[sets].counter, sets + 1) << "the counter continues";
   EXPECT_TRUE(eventually([&] {
     broadcast(camera, ++at);
     return diagnostics.find(status_name())->level == DiagnosticStatus::OK;
@@ -144,16 +144,16 @@ TEST_F(FromTf, SetsAreNotFasterThanTheRate) {
   constexpr int sets = 40;
   ASSERT_TRUE(moves(before + sets));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  // At the beginning one may be late and the next one in time.
+  // At the start one may be late and the next one in time.
   EXPECT_GT(took.count(), (sets - 2) / rate);
 }
 
-/// x is the time of the pose, in seconds of the current thousand.
+/// x is the time of the pose in s, modulo 1000.
 class FromTfInTime : public FromTf {
  protected:
   static double x_of(const ::ros::Time& time) { return time.sec % 1000 + time.nsec / 1e9; }
 
-  /// At 50 Hz, on the dot as far as the machine lets it, until the condition is met.
+  /// At 50 Hz, as exactly as the machine allows, until the condition is met.
   bool moves_until(const std::function<bool()>& met) {
     auto next = std::chrono::steady_clock::now();
     return eventually([&] {
@@ -167,7 +167,7 @@ class FromTfInTime : public FromTf {
   }
   double least_age() const { return *std::min_element(ages.begin(), ages.end()); }
 
-  /// How old each set is when it comes, in s.
+  /// The age of each set when it is received, in s.
   std::vector<double> ages;
   ::ros::Subscriber sent = ::ros::NodeHandle().subscribe<trk_bridge::CameraParams>(
       name_space + "/sent", 1000, [this](const trk_bridge::CameraParamsConstPtr& message) {
@@ -189,14 +189,14 @@ TEST_F(FromTfInTime, ADelayIsExactAccordingToTheStampsOfTf) {
     const auto& message = messages[i];
     EXPECT_EQ(message.counter, i + 1);
     EXPECT_NEAR(message.x, x_of(message.header.stamp), 1e-4) << "between two poses it is interpolated";
-    EXPECT_NEAR(receiver.params[i].euler.x, message.x, 1e-6) << "sent says what is sent";
+    EXPECT_NEAR(receiver.params[i].euler.x, message.x, 1e-6) << "/sent is equal to what is sent";
   }
   EXPECT_TRUE(diagnostics.becomes(status_name(receiver.url()), "delay (s)", "0.05"));
   EXPECT_GE(std::stod(diagnostics.value(status_name(receiver.url()), "age of what is sent (ms)")), 50);
 }
 
-/// A tick at a random phase of tf would give least ages anywhere up to 20 ms, others after each start. The tick keeps a
-/// distance to poses that come unevenly, as on a busy machine.
+/// Departures with a random phase to tf would have least ages anywhere up to 20 ms, different after each start.
+/// Departures keep a margin to poses that arrive with jitter, as on a busy machine.
 TEST_F(FromTfInTime, TheAgeIsTheSameAfterEveryStart) {
   for (const int phase : {0, 5, 10, 15}) {
     node.reset();

@@ -1,6 +1,6 @@
-// ros_to_trk with sinks that are in trouble: none disturbs another, each says what it is, and the end comes soon.
+// ros_to_trk with sinks that fail or block: none disturbs another, each reports its problem, and the node ends soon.
 //
-// In namespaces of its own for networks and mounts, which need root.
+// In private namespaces for networks and mounts, which need root.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -38,12 +38,12 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 using ::testing::HasSubstr;
 
-/// Before the master and everything else is started in them.
+/// Called before the master and everything else is started in them.
 const bool has_namespaces = ::unshare(CLONE_NEWNET | CLONE_NEWNS) == 0 &&
                             ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
                             std::system("ip link set lo up") == 0;
 
-/// A receiver of UDP that notes when each set came.
+/// A UDP receiver that records when each set arrived.
 class LiveReceiver {
  public:
   LiveReceiver()
@@ -80,7 +80,7 @@ class LiveReceiver {
   std::thread thread_;
 };
 
-/// One sink in trouble before a live one.
+/// One sink with a problem before a working one.
 class Outputs : public NodeProcessTest {
  protected:
   Outputs() : NodeProcessTest(ROS_TO_TRK) {}
@@ -100,8 +100,8 @@ class Outputs : public NodeProcessTest {
     ASSERT_TRUE(diagnostics.becomes(status_name(), "constants known", "received"));
   }
 
-  /// Publishes 50 sets a second while `meanwhile` is done and `count` sets have gone out, and expects all of them, in
-  /// order and without delay, at the live one.
+  /// Publishes 50 sets a second until `meanwhile` has returned and `count` sets have been sent; expects all of them, in
+  /// order and without delay, at the working one.
   void expect_live(
       std::uint64_t count, const std::function<void()>& meanwhile = [] {}) {
     std::map<std::uint64_t, steady_clock::time_point> went;
@@ -121,7 +121,7 @@ class Outputs : public NodeProcessTest {
     EXPECT_TRUE(eventually([&] { return live.came().size() - before >= went.size(); }));
     auto came = live.came();
     came.erase(came.begin(), came.begin() + static_cast<std::ptrdiff_t>(before));
-    ASSERT_EQ(came.size(), went.size()) << "not one is missing";
+    ASSERT_EQ(came.size(), went.size()) << "none is missing";
     std::vector<double> delays, gaps;
     std::uint64_t expected = went.begin()->first;
     for (const auto& [counter, time] : came) {
@@ -137,12 +137,12 @@ class Outputs : public NodeProcessTest {
     std::printf("%zu sets at %.2f Hz; delay median %.2f, 95 %% %.2f, most %.2f ms; gap 95 %% %.2f, most %.2f ms\n",
                 came.size(), static_cast<double>(came.size() - 1) / took, delays[delays.size() / 2],
                 delays[delays.size() * 95 / 100], delays.back(), gaps[gaps.size() * 95 / 100], gaps.back());
-    // One that waited for its neighbour came 200 ms late, and later with every set.
+    // If it waited for the other sink, it would be 200 ms late, and later with every set.
     EXPECT_LT(delays[delays.size() / 2], 100);
     EXPECT_LT(delays.back(), 2000);
   }
 
-  /// Expects that SIGINT ends it soon; what it says at the end.
+  /// Expects that SIGINT ends it soon; returns its output at the end.
   std::string end(int number = SIGINT) {
     const auto begin = steady_clock::now();
     node->signal(number);
@@ -304,7 +304,7 @@ TEST_F(Outputs, AMissingFolder) {
   end();
 }
 
-/// How the node as a process of its own deals with a recording.
+/// How the node as a separate process handles a recording.
 class NodeRecording : public Outputs {
  protected:
   void record(std::uint64_t count) {

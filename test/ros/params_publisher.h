@@ -1,4 +1,4 @@
-// The input of ros_to_trk as another node gives it.
+// The input of ros_to_trk, as from another node.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace trk_bridge::test {
 
-/// Publishes what a node takes in with `input: params`.
+/// Publishes what a node receives with `input: params`.
 class ParamsPublisher {
  public:
   explicit ParamsPublisher(const std::string& name_space)

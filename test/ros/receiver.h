@@ -1,4 +1,4 @@
-// What a receiver of trk has got so far.
+// What a receiver of trk has received so far.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@ class Receiver {
  public:
   std::string url() const { return "udp://127.0.0.1:" + std::to_string(socket_.port()); }
 
-  /// Takes everything that has come. Throws when something that came is no record.
+  /// Receives everything that has arrived. Throws if a datagram is no record.
   void take() {
     while (const auto bytes = socket_.receive(std::chrono::milliseconds(0))) {
       const auto read = wire::decode(*bytes, detector_);
@@ -25,7 +25,7 @@ class Receiver {
       if (const auto* c = std::get_if<wire::CameraConstants>(&read->record)) constants.push_back(*c);
     }
   }
-  /// Whether parameters with this counter are the last that came.
+  /// Whether parameters with this counter are the last received ones.
   bool is_at(std::uint64_t counter) {
     take();
     return !params.empty() && params.back().counter == counter;

@@ -1,4 +1,4 @@
-// A camera recorded and played back by the launch files, and what trk bag makes of the recordings.
+// A camera recorded and played by the launch files, and conversions of the recordings by trk bag.
 #include <algorithm>
 #include <filesystem>
 
@@ -15,20 +15,20 @@
 namespace trk_bridge::test {
 namespace {
 
-/// A record's bytes, so that equal means equal bit for bit.
+/// A record's bytes: equal bytes are equal bit for bit.
 template <typename RecordType>
 std::string bits(const RecordType& record) {
   wire::Buffer buffer;
   return std::string(wire::to_image(record, {wire::Generation::identified, wire::Abi::lp64, {}}, buffer).value());
 }
 
-/// Whether `part` lies in `whole` without a gap.
+/// Whether `part` is contained in `whole` without a gap.
 ::testing::AssertionResult is_run_of(const std::vector<wire::CameraParams>& part,
                                      const std::vector<wire::CameraParams>& whole) {
   const auto equal = [](const auto& a, const auto& b) { return bits(a) == bits(b); };
   const auto found = std::search(whole.begin(), whole.end(), part.begin(), part.end(), equal);
   if (found != whole.end()) return ::testing::AssertionSuccess() << "from field " << found - whole.begin();
-  return ::testing::AssertionFailure() << part.size() << " fields are no run of the " << whole.size();
+  return ::testing::AssertionFailure() << part.size() << " fields are not contiguous in the " << whole.size();
 }
 
 class Recording : public TrkToRosTest {
@@ -90,7 +90,7 @@ TEST_F(Recording, PlayedBackFeedsRosToTrk) {
   const auto back = file::read_take(sent);
   EXPECT_GE(back.params.size(), 100u);
   EXPECT_TRUE(is_run_of(back.params, whole.params));
-  EXPECT_FALSE(::ros::param::has("/use_sim_time")) << "left behind when the bag ended";
+  EXPECT_FALSE(::ros::param::has("/use_sim_time")) << "remains when the bag has ended";
 }
 
 TEST_F(Recording, PlayedBackAndInterruptedLeavesNoSimulatedTimeBehind) {

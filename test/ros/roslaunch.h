@@ -1,4 +1,4 @@
-// A launch file as its user starts it.
+// A launch file, as a user starts it.
 #pragma once
 
 #include <csignal>
@@ -12,7 +12,7 @@
 
 namespace trk_bridge::test {
 
-/// roslaunch and all its nodes, ended with this object at the latest.
+/// roslaunch and all its nodes, ended by the destructor at the latest.
 class Roslaunch {
  public:
   explicit Roslaunch(const std::vector<std::string>& arguments) : roslaunch_(words(arguments)) {}
@@ -25,12 +25,12 @@ class Roslaunch {
   Roslaunch(const Roslaunch&) = delete;
   Roslaunch& operator=(const Roslaunch&) = delete;
 
-  /// Ends it as Ctrl-C does and returns what it said.
+  /// Ends it like Ctrl-C and returns its output.
   std::string end() {
     roslaunch_.signal(SIGINT);
     return wait();
   }
-  /// Waits until it ends by itself and returns what it said.
+  /// Waits until it ends by itself and returns its output.
   std::string wait() {
     if (ended_) return said_;
     ended_ = true;

@@ -17,7 +17,7 @@
 namespace trk_bridge::test {
 namespace {
 
-/// What of ros_to_trk comes back is the test's.
+/// The input of ros_to_trk is set by each test.
 class RoundTripOfNodes : public TrkToRosTest {
  protected:
   void SetUp() override {
@@ -26,12 +26,12 @@ class RoundTripOfNodes : public TrkToRosTest {
     tracker.emplace(port());
   }
 
-  /// Sends a case until what comes back is `same`: constants and parameters come on connections of their own, so that
-  /// the first after a change may meet the constants before.
+  /// Sends a case until what is received back is `same`: constants and parameters use separate connections, so that the
+  /// first parameters after a change may be combined with the previous constants.
   template <typename Same>
   void expect_back(const WorkedCase& one, Receiver& receiver, Same same) {
     const auto end = std::chrono::steady_clock::now() + deadline;
-    ::testing::AssertionResult result = ::testing::AssertionFailure() << "nothing came back";
+    ::testing::AssertionResult result = ::testing::AssertionFailure() << "nothing was received back";
     while (!result && std::chrono::steady_clock::now() < end) {
       auto record = one.params;
       record.counter = ++counter;
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(As, ThroughParams,
                                            "ignore_blank keep_aspect shift_in_pixels"),
                          [](const auto& test) { return test.index == 0 ? "Euler" : "Everything"; });
 
-/// ros_to_trk is made again for every chip.
+/// ros_to_trk is created again for every chip.
 class ThroughTf : public RoundTripOfNodes {
  protected:
   using Picture = std::tuple<double, double, int, int, int, int>;

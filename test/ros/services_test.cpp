@@ -19,7 +19,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// The answer of a service of the node, whose callbacks come while it is waited for.
+/// The response of a service of the node, whose callbacks are called meanwhile.
 template <typename Service, typename Value>
 typename Service::Response call(const std::string& name, const Value& value) {
   Service service;
@@ -51,7 +51,7 @@ TEST_F(LiveInput, TheDelayOfStampsCanBeChangedLive) {
   const Tracker tracker(port());
   Recorder<trk_bridge::CameraParams> recorder(name_space + "/params");
   std::uint64_t counter = 0;
-  // The later of now and the stamp is known to the test alone: the node stamps what it has received before.
+  // Only the test knows the later of now and the stamp: the node has stamped the record before.
   const auto age = [&] {
     const auto count = recorder.messages.size();
     tracker.send(params(++counter));

@@ -23,7 +23,7 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
   ASSERT_EQ(loading.wait(), 0) << said;
   XmlRpc::XmlRpcValue tree;
   ASSERT_TRUE(::ros::param::get("/three_cameras", tree));
-  ASSERT_EQ(ros1::read_trk_to_ros_parameters(tree, "unused").cameras.size(), 3u) << "the file itself is sound";
+  ASSERT_EQ(ros1::read_trk_to_ros_parameters(tree, "unused").cameras.size(), 3u) << "the file itself is valid";
   const FreeSlot free_slot;
   const std::string slot = "shm:" + std::to_string(free_slot.number());
   tree["source"] = any_udp_port;
@@ -47,7 +47,7 @@ TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory)
   }
   EXPECT_TRUE(eventually([&] { return one.messages.size() == 3 && two.messages.size() == 3; }));
   EXPECT_EQ(two.messages.back().counter, 103u);
-  // What was written before the reader attached is not news to it.
+  // Records that were written before the reader attached are not new to it.
   std::uint64_t counter = 0;
   EXPECT_TRUE(eventually([&] {
     EXPECT_TRUE(sink->write(test::params(++counter)));

@@ -15,13 +15,13 @@ namespace {
 
 using testing::ElementsAre;
 
-/// One record of a script, and whether the next one has arrived already.
+/// One record, and whether the next one has already arrived.
 struct Arrival {
   wire::Record record;
   bool more = false;
 };
 
-/// Gives what it is given.
+/// Returns the given records.
 class ScriptedSource : public transport::Source {
  public:
   explicit ScriptedSource(std::deque<Arrival> arrivals) : arrivals_(std::move(arrivals)) {}
@@ -92,7 +92,7 @@ class SourceReader : public CameraTest {
   }
   ~SourceReader() override { reader_.reset(); }
 
-  /// Waits until `expected` things came, and a little for what should not come.
+  /// Waits until `expected` messages are received, and a little longer for unexpected ones.
   void read(std::deque<Arrival> arrivals, std::size_t expected) {
     std::vector<nodes::CameraOutput*> cameras;
     for (const auto& one : cameras_) cameras.push_back(one.get());
@@ -108,7 +108,7 @@ class SourceReader : public CameraTest {
   std::vector<std::string> came;
   std::vector<trk_bridge::CameraParamsConstPtr> messages;
 
-  /// From now on `came` has these, too.
+  /// From now on `came` also contains these.
   void listen_to_camera_infos() {
     for (int i = 1; i <= count; ++i) {
       params_.push_back(::ros::NodeHandle().subscribe<sensor_msgs::CameraInfo>(

@@ -1,4 +1,4 @@
-// How trk_to_ros begins and ends: as a process, and with parameters that it refuses.
+// How trk_to_ros starts and ends: as a process, and with parameters that it refuses.
 #include "free_slot.h"
 #include "node_process.h"
 

@@ -1,5 +1,5 @@
-// The whole way from a tracker to pictures of the test card: what is found in them against CameraInfo and tf, as nodes
-// that process images use them.
+// The complete path from a tracker to pictures of the test card: their content is compared with CameraInfo and tf, as
+// used by nodes that process images.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -32,7 +32,7 @@
 namespace trk_bridge::test {
 namespace {
 
-constexpr double point_limit = 0.05;    // pixels between a point in the image and where CameraInfo and tf put it
+constexpr double point_limit = 0.05;    // pixels between a point in the image and its place by CameraInfo and tf
 constexpr double straight_limit = 0.1;  // pixels between a rectified line and a straight one
 constexpr std::chrono::milliseconds field{20};
 
@@ -51,7 +51,7 @@ const Message* with_stamp(const std::vector<Message>& messages, const ::ros::Tim
 
 Eigen::Vector3d place_of(const geometry_msgs::Point& point) { return {point.x, point.y, point.z}; }
 
-/// What image, CameraInfo and tf of one moment say of each other.
+/// Image, CameraInfo and tf of one time, and their differences.
 class Moment {
  public:
   Moment(const sensor_msgs::CameraInfo& info, const Eigen::Isometry3d& optical_T_studio)
@@ -72,7 +72,7 @@ class Moment {
     return {raw.x, raw.y};
   }
 
-  /// Ends of a line in the rectified image; nothing where it does not come before the camera.
+  /// Ends of a line in the rectified image; none if no part of it is in front of the camera.
   std::vector<Eigen::Vector2d> pinhole_line(Eigen::Vector3d from, Eigen::Vector3d to) const {
     const auto depth = [this](const Eigen::Vector3d& p) { return (optical_T_studio_ * p).z(); };
     if (depth(from) > depth(to)) std::swap(from, to);
@@ -96,7 +96,7 @@ struct Agreement {
   std::string worst_line;
 };
 
-/// The lens of crane_shot's camera: `wide` from 0 to 1, barrel to cushion.
+/// The lens of crane_shot's camera: `wide` from 0 to 1, from barrel to pincushion distortion.
 wire::CameraParams at(double pan, double tilt, double roll, double wide) {
   wire::CameraParams params;
   params.format = wire::euler;
@@ -133,7 +133,7 @@ class TestCard : public TrkToRosTest {
     ASSERT_TRUE(eventually([this] { return !markers_->messages.empty(); }));
   }
 
-  /// Pictures are made in a thread of their own, as in a process of their own.
+  /// Pictures are drawn in a separate thread, as in a separate process.
   void make_card() {
     ::ros::NodeHandle topics(name_space);
     topics.setCallbackQueue(&card_callbacks_);
@@ -160,7 +160,7 @@ class TestCard : public TrkToRosTest {
     return constants;
   }
 
-  /// Sends at field rate whatever `motion` says, until the condition is met.
+  /// Sends the values of `motion` at the field rate, until the condition is met.
   ::testing::AssertionResult send_until(const std::function<wire::CameraParams(int)>& motion,
                                         const std::function<bool()>& condition) {
     auto next = std::chrono::steady_clock::now();
@@ -180,7 +180,7 @@ class TestCard : public TrkToRosTest {
                                          << " rectified, of " << fields << " fields";
   }
 
-  /// None when tf or CameraInfo do not know of the image's time.
+  /// None if tf or CameraInfo have no data of the image's time.
   std::optional<Moment> moment_of(const sensor_msgs::Image& image) {
     const ::ros::Time& stamp = image.header.stamp;
     const std::string& optical = image.header.frame_id;
@@ -192,7 +192,7 @@ class TestCard : public TrkToRosTest {
                   ros1::to_isometry(transforms_.lookupTransform(optical, "studio", stamp).transform));
   }
 
-  /// Every disc in the image against the nearest point that CameraInfo and tf put there.
+  /// Compares every disc in the image with the nearest point by CameraInfo and tf.
   Agreement agreement_of_points(const sensor_msgs::Image& image, const Moment& moment) const {
     std::vector<Eigen::Vector2d> pinhole, expected;
     for (const auto& point : marker("points").points) {
@@ -219,7 +219,7 @@ class TestCard : public TrkToRosTest {
     return agreement;
   }
 
-  /// Lines in the rectified image against straight ones, and those of the raw image.
+  /// Compares lines in the rectified image, and in the raw image, with straight ones.
   Agreement agreement_of_lines(const sensor_msgs::Image& raw, const sensor_msgs::Image& rectified,
                                const Moment& moment) const {
     const cv::Mat raw_picture = picture_of(raw), picture = picture_of(rectified);
@@ -265,19 +265,19 @@ class TestCard : public TrkToRosTest {
 void expect_points(const Agreement& points) {
   EXPECT_GE(points.compared, 8);
   EXPECT_LT(points.worst, point_limit) << "pixels";
-  EXPECT_GT(points.without_distortion, 20 * point_limit) << "pixels: else D was not tested";
+  EXPECT_GT(points.without_distortion, 20 * point_limit) << "pixels: otherwise D was not tested";
 }
 
 void expect_lines(const Agreement& lines) {
   EXPECT_GE(lines.compared, 8);
   EXPECT_LT(lines.worst, straight_limit) << "pixels: " << lines.worst_line;
-  EXPECT_GT(lines.without_distortion, 10 * straight_limit) << "pixels: else rectifying was not tested";
+  EXPECT_GT(lines.without_distortion, 10 * straight_limit) << "pixels: otherwise rectifying was not tested";
 }
 
 TEST_F(TestCard, MatchesCameraInfoAndTfWhileTheCameraMoves) {
   set_card("rate", 12.5);
   ASSERT_NO_FATAL_FAILURE(start_card());
-  // Pan, roll and zoom at once: what is not of one moment does not agree.
+  // Pan, roll and zoom at once: data of different times would not agree.
   ASSERT_TRUE(send_until(
       [](int i) { return at(10 * std::sin(i * 0.05), -6, 8 * std::sin(i * 0.03), 0.5 + 0.5 * std::cos(i * 0.04)); },
       [this] { return images_->messages.size() >= 12 && rectified_->messages.size() >= 8; }));
@@ -311,7 +311,7 @@ TEST_P(TestCardAtRest, AgreesAndImageProcMakesStraightLines) {
   class_loader::ClassLoader library(IMAGE_PROC_LIBRARY);
   const auto rectify = library.createInstance<nodelet::Nodelet>("image_proc::RectifyNodelet");
   const std::string name = name_space + "/image_proc_rectify";
-  // Enough CameraInfos to find that of an image that takes a while to come.
+  // Enough CameraInfos to find that of an image that arrives late.
   ::ros::param::set(name + "/queue_size", 100);
   rectify->init(name,
                 {{name_space + "/image_mono", name_space + "/image_raw"},
@@ -322,7 +322,7 @@ TEST_P(TestCardAtRest, AgreesAndImageProcMakesStraightLines) {
 
   const auto [pan, tilt, roll, wide] = GetParam();
   const auto params = at(pan, tilt, roll, wide);
-  // The image that all have.
+  // The image that all have received.
   std::optional<sensor_msgs::Image> image;
   ASSERT_TRUE(send_until([&](int) { return params; },
                          [&] {
@@ -357,7 +357,7 @@ TEST_F(TestCard, PairsEveryRectifiedImageWithItsCameraInfo) {
   Recorder<sensor_msgs::Image> images(name_space + "/rectified/image");
   Recorder<sensor_msgs::CameraInfo> infos(name_space + "/rectified/camera_info");
   ASSERT_NO_FATAL_FAILURE(start_card());
-  // Topics arrive in no order among each other.
+  // The order between topics is undefined.
   constexpr std::size_t count = 5;
   const auto have_come = [&](const auto& recorder) {
     return std::all_of(images.messages.begin(), images.messages.begin() + count, [&](const sensor_msgs::Image& image) {
@@ -392,8 +392,8 @@ TEST_F(TestCard, KeepsItsRateAndDrawsTheNewestParams) {
   ASSERT_NO_FATAL_FAILURE(start_card());
   const auto params = at(0, -5, 0, 1);
   const auto begin = std::chrono::steady_clock::now();
-  // Five periods, each prolonged by a field at most until the next params come, which does not add up. A busy machine
-  // may hold them up meanwhile, but not all the time.
+  // Five periods, each longer by at most one field until the next params arrive; this does not accumulate. A busy
+  // machine may delay some of them, but not all.
   EXPECT_TRUE(send_until([&](int) { return params; },
                          [this] {
                            const auto count = images_->messages.size();
@@ -403,7 +403,8 @@ TEST_F(TestCard, KeepsItsRateAndDrawsTheNewestParams) {
                            return took > 0.9 && took < 1.5;
                          }));
   const std::chrono::duration<double> ran = std::chrono::steady_clock::now() - begin;
-  EXPECT_LE(static_cast<double>(images_->messages.size()), 5 * ran.count() + 2) << "never more, the first one apart";
+  EXPECT_LE(static_cast<double>(images_->messages.size()), 5 * ran.count() + 2)
+      << "never more, except for the first one";
 }
 
 TEST_F(TestCard, ReportsWhenTheMachineIsTooSlow) {
@@ -417,7 +418,7 @@ TEST_F(TestCard, ReportsWhenTheMachineIsTooSlow) {
                              return line.msg.find("this machine is too slow: a picture takes") != std::string::npos;
                            });
                          }))
-      << "it says nothing of the kind";
+      << "it does not report that";
 }
 
 TEST_F(TestCard, ReportsThatThereIsNoPictureWithoutConstants) {
@@ -431,7 +432,7 @@ TEST_F(TestCard, ReportsThatThereIsNoPictureWithoutConstants) {
   EXPECT_TRUE(eventually([&] {
     return std::any_of(log.messages.begin(), log.messages.end(),
                        [](const auto& line) { return line.msg.find("no constants yet") != std::string::npos; });
-  })) << "it says nothing of the kind";
+  })) << "it does not report that";
   EXPECT_TRUE(eventually([this] { return params_->messages.size() > 5; }));
   EXPECT_TRUE(images_->messages.empty());
 }

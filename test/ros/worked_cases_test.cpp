@@ -1,4 +1,4 @@
-// The worked cases, sent over UDP in their own formats, as ROS sees them.
+// The worked cases, sent over UDP in their formats, as received in ROS.
 #include <cmath>
 
 #include <image_geometry/pinhole_camera_model.h>

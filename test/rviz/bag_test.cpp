@@ -1,4 +1,4 @@
-// A bag that is played again and again: time jumps back with every loop. ROS time is the bag's.
+// A bag that is played in a loop: time jumps back with every repetition. ROS time is the bag's.
 #include <csignal>
 #include <memory>
 #include <string>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr int rate = 50, seconds = 4;
 
-/// What a camera's node would have published in `seconds` that it stood here, then there.
+/// What a camera's node publishes in `seconds` at one place, then at another.
 void record(const std::string& path, const TrackedCamera& here, const TrackedCamera& there) {
   rosbag::Bag bag(path, rosbag::bagmode::Write);
   for (int i = 0; i < rate * seconds; ++i) {
@@ -60,11 +60,11 @@ TEST(Bag, IsDrawnInEveryLoop) {
   for (int loop = 0; loop < 3; ++loop) {
     SCOPED_TRACE("loop " + std::to_string(loop));
     ASSERT_TRUE(becomes(here)) << statuses(display);
-    EXPECT_TRUE(vanishes(green)) << "what was after now has left no trail";
+    EXPECT_TRUE(vanishes(green)) << "positions after the current time are not in the trail";
     const auto began = ::ros::Time::now();
     ASSERT_TRUE(becomes(there)) << statuses(display);
     EXPECT_TRUE(window().eventually([&] { return !window().picture().pixels(green).empty(); }))
-        << "the trail from here to there";
+        << "the trail between the two places";
     for (const char* line : {"Camera Info", "Camera Params", "Transform", "Lens", "Age"}) {
       EXPECT_TRUE(window().tells(display, line, rviz::StatusProperty::Ok)) << line;
     }

@@ -1,5 +1,5 @@
-// How many frames a second rviz draws with many cameras, everything of them shown; to be run by hand where a ROS master
-// is: with_display rviz_cameras_bench empty.rviz [CAMERAS [RATE]].
+// How many frames per second rviz draws with many cameras, with everything shown; run it by hand while a ROS master is
+// running: with_display rviz_cameras_bench empty.rviz [CAMERAS [RATE]].
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// What happens around a display: it comes and goes, topics change, messages stop, are missing or make no sense.
+// Conditions of a display: it is added and removed, topics change, messages stop, are missing or invalid.
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -42,7 +42,7 @@ TEST_F(Conditions, TheDialogShowsOurIconAndADescription) {
   const auto picture_of = [](const QIcon& icon) { return icon.pixmap(64, 64).toImage(); };
   const auto icon = picture_of(factory.getIcon(id));
   ASSERT_FALSE(icon.isNull());
-  EXPECT_NE(icon, picture_of(rviz::loadPixmap("package://rviz/icons/default_class_icon.png"))) << "rviz's own stand-in";
+  EXPECT_NE(icon, picture_of(rviz::loadPixmap("package://rviz/icons/default_class_icon.png"))) << "rviz's placeholder";
   EXPECT_TRUE(factory.getMessageTypes(id).contains("sensor_msgs/CameraInfo")) << "found by topic, too";
 }
 
@@ -100,7 +100,7 @@ TEST_F(Conditions, ACameraThatIsGoneIsNotDrawnAfterTheTimeout) {
   EXPECT_TRUE(window().tells(display, "Age", warn, "older than"));
   EXPECT_TRUE(window().tells(display, "Camera Params", warn, "no messages on " + camera.params_topic()));
   camera.publishes({});
-  EXPECT_TRUE(becomes(tracked)) << "it has come back" << statuses(display);
+  EXPECT_TRUE(becomes(tracked)) << "it is shown again" << statuses(display);
   EXPECT_TRUE(window().tells(display, "Camera Info", ok));
   EXPECT_TRUE(window().tells(display, "Age", ok));
 }
@@ -128,7 +128,7 @@ TEST_F(Conditions, WithoutATransformNothingIsDrawnAndTheReasonOfTfIsShown) {
   EXPECT_TRUE(becomes(tracked)) << statuses(display);
   EXPECT_TRUE(window().tells(display, "Transform", ok));
   camera.publishes({true, true, false});
-  EXPECT_TRUE(vanishes()) << "where it is now nobody knows";
+  EXPECT_TRUE(vanishes()) << "its current place is unknown";
   EXPECT_TRUE(window().tells(display, "Transform", error));
 }
 
@@ -189,8 +189,7 @@ TEST_F(Conditions, EveryPartIsVisibleAndCanBeSwitchedOff) {
   for (const char* part : {"Frustum", "Image Plane", "Focus Plane", "Optical Axis", "Body", "Camera Name", "Values"}) {
     const auto with = window().picture().image();
     property(display, {part}).setValue(false);
-    EXPECT_TRUE(window().eventually([&] { return window().picture().image() != with; }))
-        << part << " is not to be seen";
+    EXPECT_TRUE(window().eventually([&] { return window().picture().image() != with; })) << part << " is not visible";
   }
   EXPECT_TRUE(window().eventually([] {
     const auto image = window().picture().image();
@@ -242,7 +241,7 @@ TEST_F(Conditions, TheFixedFrameCanChange) {
   const auto& display = add_frustum("Camera", camera.info_topic());
   EXPECT_TRUE(becomes(tracked));
 
-  // The stage lies aside, turned by a quarter: studio = stage moved and turned.
+  // The stage is beside the studio and turned by 90 degrees: studio = stage moved and turned.
   ::ros::NodeHandle ros;
   auto statics = ros.advertise<tf2_msgs::TFMessage>("/tf_static", 1, /*latch=*/true);
   const Eigen::Isometry3d studio_T_stage =

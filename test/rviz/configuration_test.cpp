@@ -1,4 +1,4 @@
-// What is saved is loaded again.
+// Saved configurations are loaded again.
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -29,7 +29,7 @@ Values values_of(const rviz::Display& display) {
   return values;
 }
 
-/// Every value is made another one, of its own kind.
+/// Changes every value to another one of its kind.
 void change_everything(rviz::Property& root) {
   for (int i = 0; i < root.numChildren(); ++i) {
     auto& child = *root.childAt(i);
@@ -55,7 +55,7 @@ void change_everything(rviz::Property& root) {
   }
 }
 
-/// What a saved configuration says of the displays: sizes of panels are the window's own.
+/// The displays of a saved configuration, without the window's sizes of panels.
 std::string displays_of(const std::string& path) {
   const std::string text = read_text(path);
   const auto begin = text.find("Visualization Manager:"), end = text.find("Window Geometry:");

@@ -26,7 +26,7 @@ struct LensCase {
   const char* name;
   double fov, center_x, center_y, k1, k2;
   double near, far;
-  bool strong;  ///< bends the edges by many pixels
+  bool strong;  ///< moves the edges by many pixels
 };
 
 void PrintTo(const Pose& pose, std::ostream* out) { *out << pose.name; }
@@ -38,7 +38,7 @@ const Pose poses[] = {{"Level", {0.3, -0.5, 1.2, 20, -8, 5}},
 const LensCase lenses[] = {{"Short", 4.8, 0.35, -0.2, 0.006, 0, 0.5, 3, true},
                            {"Long", 40, -0.9, 0.6, -0.002, 1e-5, 3, 9, false}};
 
-/// An image wider than the picture on the chip.
+/// An image that is wider than the picture on the chip.
 wire::CameraConstants with_blanks() {
   wire::CameraConstants c;
   c.image_width = 1920;
@@ -52,8 +52,8 @@ wire::CameraConstants with_blanks() {
   return c;
 }
 
-/// How many edges of the image are bent so far that the middle of the straight line between two corners is well off
-/// every line. Expects no colour there, and colour where the lens bends the edge to.
+/// How many edges of the image are so curved that the middle of the straight line between two corners is far from every
+/// line. Expects no colour there, and colour on the curved edge.
 int expect_bent(const Picture& picture, const TrackedCamera& camera, double depth, const OrbitView& view,
                 const std::vector<Polyline>& lines) {
   const double w = camera.constants.image_width, h = camera.constants.image_height;
@@ -102,7 +102,7 @@ class Frustum : public TrkToRosTest, public ::testing::WithParamInterface<std::t
     return camera;
   }
 
-  /// From aside, so that all of the frustum is in the view and no two of its edges coincide.
+  /// From the side, so that the complete frustum is in the view and no two of its edges coincide.
   static void look_at(const TrackedCamera& camera, double far) {
     const auto middle = seen_at(camera, {960, 540}, far * 0.55);
     const double pan = camera.params.euler.pan * std::acos(-1.0) / 180;
@@ -127,7 +127,7 @@ TEST_P(Frustum, IsAtThePoseOfTheTrackerAndNowhereElse) {
   const auto lines_of = [&](const TrackedCamera& one) { return seen_by(view, frustum(one, lens.near, lens.far)); };
   const auto lines = lines_of(tracked);
   for (const auto& line : lines) {
-    for (const auto& point : line) ASSERT_TRUE(view.contains(point)) << "the view must show all of it";
+    for (const auto& point : line) ASSERT_TRUE(view.contains(point)) << "the view must show it completely";
   }
   const auto shown = becomes(frustum(tracked, lens.near, lens.far));
   const auto picture = window().picture();
@@ -137,7 +137,7 @@ TEST_P(Frustum, IsAtThePoseOfTheTrackerAndNowhereElse) {
   if (!shown) picture.write(name + "_expected.png", lines);
 
   const int bent = expect_bent(picture, tracked, lens.far, view, lines);
-  EXPECT_GE(bent, lens.strong ? 2 : 0) << "edges that tell bent from straight";
+  EXPECT_GE(bent, lens.strong ? 2 : 0) << "edges that distinguish curved from straight";
 
   const std::vector<std::pair<const char*, std::function<void(TrackedCamera&)>>> sign_errors{
       {"pan", [](TrackedCamera& c) { c.params.euler.pan *= -1; }},

@@ -1,4 +1,4 @@
-// That the tests of this directory see what they believe to see: rviz's own displays, whose drawing is known.
+// Checks the test support of this directory with rviz's displays, whose drawing is known.
 #include <ros/ros.h>
 #include <visualization_msgs/Marker.h>
 
@@ -56,11 +56,11 @@ TEST_F(Harness, LinesOfRvizAreFoundWhereTheyAreAndNowhereElse) {
   })) << shown.message();
   const auto picture = window().picture();
   picture.write(results_directory() + "/harness_lines.png");
-  EXPECT_FALSE(picture.shows_only(magenta, {line(0)}, 3)) << "a line too many";
-  EXPECT_FALSE(picture.shows_only(magenta, {line(0), line(2), {{20, 20}, {40, 40}}}, 3)) << "a line too few";
+  EXPECT_FALSE(picture.shows_only(magenta, {line(0)}, 3)) << "an additional line";
+  EXPECT_FALSE(picture.shows_only(magenta, {line(0), line(2), {{20, 20}, {40, 40}}}, 3)) << "a missing line";
   Polyline beside = line(0);
   for (auto& point : beside) point.y() += 6;
-  EXPECT_FALSE(picture.shows_only(magenta, {beside, line(2)}, 3)) << "a line beside";
+  EXPECT_FALSE(picture.shows_only(magenta, {beside, line(2)}, 3)) << "a line beside the expected one";
 
   display.setEnabled(false);
   EXPECT_TRUE(window().picture().pixels(magenta).empty());

@@ -14,7 +14,7 @@ namespace {
 
 RvizWindow* the_window = nullptr;
 
-/// Shows who was not there what a failed test saw.
+/// Saves what a failed test saw.
 class PicturesOfFailures : public ::testing::EmptyTestEventListener {
   void OnTestStart(const ::testing::TestInfo& test) override {
     name_ = std::string(test.test_suite_name()) + "." + test.name();
@@ -41,7 +41,7 @@ std::string results_directory() {
 
 }  // namespace trk_bridge::test
 
-/// Its first argument is the configuration that rviz starts with; rostest may add some of its own.
+/// The first argument is the configuration that rviz starts with; rostest may add more arguments.
 int main(int argc, char** argv) {
   ::testing::InitGoogleMock(&argc, argv);
   trk_bridge::test::limit_each_test();

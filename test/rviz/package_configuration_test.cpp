@@ -1,4 +1,4 @@
-// rviz started with the package's own configuration: the crane's camera and the one that came back.
+// rviz with the package's configuration: the crane's camera and the one that is received back.
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,7 +21,7 @@ TEST(PackageConfiguration, DrawsBothCameras) {
     const double far = property(display, {"Frustum", "Far"}).getValue().toDouble();
     ASSERT_TRUE(property(display, {"Frustum"}).getValue().toBool());
     const double w = tracked.constants.image_width, h = tracked.constants.image_height;
-    // One corner may lie behind a plane or a line of text.
+    // One corner may be hidden by a plane or a line of text.
     const auto corners_seen = [&, &tracked = tracked] {
       const auto picture = window().picture();
       int seen = 0;

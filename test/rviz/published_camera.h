@@ -1,4 +1,4 @@
-// What a camera's node publishes, from within the test, so that a part of it can be left out or spoilt.
+// Publishes like a camera's node, but in the test, so that parts can be omitted or changed.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@
 namespace trk_bridge::test {
 
 /// A camera without distortion and blanks: /<name>/camera_info, /<name>/params and the transform studio to
-/// <name>_optical with one stamp, at a rate from a thread of its own.
+/// <name>_optical with one stamp, at a rate, in a thread.
 class PublishedCamera {
  public:
   /// Which messages are sent.
@@ -29,7 +29,7 @@ class PublishedCamera {
 
   void is(const TrackedCamera& camera);
   void publishes(const Parts& parts);
-  /// Applied to every CameraInfo before it is sent; none: as it is.
+  /// Applied to every CameraInfo before it is sent; none: unchanged.
   void spoils(const Change& change);
 
   const std::string& name() const { return name_; }
@@ -46,7 +46,7 @@ class PublishedCamera {
   Parts parts_;
   Change change_;
   std::uint64_t counter_ = 0;
-  // The last: it must end before what it uses.
+  // The last member: it must end before the others that it uses.
   std::unique_ptr<Repeating> publishing_;
 };
 

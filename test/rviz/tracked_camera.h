@@ -1,5 +1,5 @@
-// A camera as its tracker tells it, and what it sees: by the document's own equations, on a way that has nothing in
-// common with the display's (no K, no D, no inversion).
+// A camera as sent by its tracker, and what it sees: with the document's equations, independent of the display's
+// calculation (no K, no D, no inversion).
 #pragma once
 
 #include <vector>
@@ -12,19 +12,19 @@
 
 namespace trk_bridge::test {
 
-/// Euler angles, image distance and shift in mm, blanks considered.
+/// Euler angles, image distance and shift in mm, with blanks.
 struct TrackedCamera {
   wire::CameraConstants constants;
   wire::CameraParams params;
 };
 
-/// A sound one that looks into the studio, without distortion.
+/// A valid one that looks into the studio, without distortion.
 TrackedCamera plain_camera(double x = 0, double pan = 0);
 
 Eigen::Isometry3d pose_of(const TrackedCamera&);
 
-/// The point in the studio at `depth` metres along the optical axis that is seen at `image`, pixels from the upper left
-/// corner of the image.
+/// The point in the studio at `depth` metres along the optical axis that is at `image` in the image, in pixels from its
+/// upper left corner.
 Eigen::Vector3d seen_at(const TrackedCamera&, const Eigen::Vector2d& image, double depth);
 
 /// Points of a line in the studio, metres.

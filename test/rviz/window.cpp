@@ -75,7 +75,7 @@ std::string statuses(const rviz::Display& display) {
 RvizWindow::RvizWindow(QApplication& application, const std::string& configuration)
     : application_(&application), program_(std::make_unique<rviz::VisualizerApp>()) {
   program_->setApp(&application);
-  // Smoothed edges are of no single colour.
+  // Smoothed edges have no single colour.
   std::vector<std::string> words{"rviz", "--disable-anti-aliasing", "--splash-screen", "", "-d", configuration};
   std::vector<char*> arguments;
   for (auto& word : words) arguments.push_back(word.data());
@@ -89,7 +89,7 @@ bool RvizWindow::eventually(const std::function<bool()>& condition, std::chrono:
   const auto end = std::chrono::steady_clock::now() + within;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
-    // rviz's own timers see to it that there always is a next event.
+    // rviz's timers ensure that there is always a next event.
     application_->processEvents(QEventLoop::AllEvents | QEventLoop::WaitForMoreEvents);
   }
   return true;

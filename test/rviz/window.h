@@ -1,4 +1,4 @@
-// The program rviz in the test's own process: its window on the X screen, its displays as its user sees them.
+// The program rviz in the test's process: its window on the X screen, its displays as a user sees them.
 #pragma once
 
 #include <chrono>
@@ -29,7 +29,7 @@ namespace trk_bridge::test {
 /// not there.
 rviz::Property& property(rviz::Property& root, const std::vector<std::string>& names);
 
-/// The colour of such an entry. Throws std::out_of_range, or std::bad_cast where it is none.
+/// The colour of such an entry. Throws std::out_of_range, or std::bad_cast if it is not a colour.
 QColor colour_of(rviz::Property& root, const std::vector<std::string>& names);
 
 struct Status {
@@ -37,7 +37,7 @@ struct Status {
   std::string text;
 };
 
-/// What the display's status list says under `name`; nothing when there is no such line.
+/// The text under `name` in the display's status list; none if there is no such line.
 std::optional<Status> status(const rviz::Display& display, const std::string& name);
 
 /// All lines, for messages.
@@ -45,10 +45,10 @@ std::string statuses(const rviz::Display& display);
 
 class RvizWindow {
  public:
-  /// Starts rviz as its program does, with a configuration. `application` outlives it. Throws std::runtime_error.
+  /// Starts rviz like its program, with a configuration. `application` outlives it. Throws std::runtime_error.
   RvizWindow(QApplication& application, const std::string& configuration);
 
-  /// Handles what the window and ROS have to do until `condition` is met or the deadline has passed; whether it was
+  /// Handles pending work of the window and ROS until `condition` is met or the deadline has passed; whether it was
   /// met.
   bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds within = deadline);
 
@@ -58,7 +58,7 @@ class RvizWindow {
   void load(const std::string& path);
   void save(const std::string& path);
 
-  /// As the dialogue does. Throws std::runtime_error when the class cannot be loaded.
+  /// Like the dialogue. Throws std::runtime_error if the class cannot be loaded.
   rviz::Display& add(const std::string& class_id, const std::string& name);
   void remove(rviz::Display& display);
   void remove_all();
@@ -70,7 +70,7 @@ class RvizWindow {
   void look(const OrbitView::Place& place);
   /// From the view's properties, not from the renderer.
   OrbitView view();
-  /// Where Ogre's camera says the point is, in pixels of the 3D view.
+  /// The place of the point by Ogre's camera, in pixels of the 3D view.
   Eigen::Vector2d rendered_at(const Eigen::Vector3d& point);
 
   /// The 3D view as it is on the screen after the next frames.
@@ -90,7 +90,7 @@ class RvizWindow {
   rviz::VisualizationFrame* frame_ = nullptr;
 };
 
-/// The one of this process, made by main().
+/// The window of this process, created by main().
 RvizWindow& window();
 
 /// A directory for pictures: where the results of the tests are written.

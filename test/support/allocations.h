@@ -1,4 +1,4 @@
-// Counts what a test program allocates. It defines malloc: one source of a program includes it.
+// Counts the allocations of a test program. It defines malloc: only one source of a program may include it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace trk_bridge::test {
 
 inline std::atomic<std::uint64_t> allocations{0};
 
-/// How often `work` allocates, other threads included.
+/// How often `work` allocates, including in other threads.
 template <typename Work>
 std::uint64_t allocations_of(const Work& work) {
   const std::uint64_t before = allocations.load();
@@ -22,8 +22,8 @@ std::uint64_t allocations_of(const Work& work) {
 
 }  // namespace trk_bridge::test
 
-// Eigen calls malloc, not operator new, and operator new calls malloc: one place sees both. glibc lets a program
-// replace malloc.
+// Eigen calls malloc, not operator new, and operator new calls malloc: malloc sees both. glibc lets a program replace
+// malloc.
 extern "C" void* __libc_malloc(std::size_t size);
 extern "C" void* malloc(std::size_t size) {
   trk_bridge::test::allocations.fetch_add(1, std::memory_order_relaxed);

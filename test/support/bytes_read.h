@@ -8,7 +8,7 @@
 
 namespace trk_bridge::test {
 
-/// Bytes of all files and pipes, those of asking included.
+/// Bytes of all files and pipes, including those that this call reads.
 inline std::int64_t bytes_read() {
   std::ifstream io("/proc/self/io");
   std::string key;

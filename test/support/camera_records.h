@@ -1,4 +1,4 @@
-// Records of a camera, for tests that any will do for.
+// Records of a camera, for tests that need any record.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A tracked camera before the test card: where it is at any time, and what its video shows then.
+// A tracked camera in front of the test card: where it is at any time, and what its video shows then.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ inline double moved(double t, double begin, double time, double change) {
   return change * u * u * u * (10 + u * (6 * u - 15));
 }
 
-/// Stands, pans quickly, tilts and rolls, and stands again after 4.4 s. `t` in s.
+/// Does not move at first, pans quickly, tilts and rolls, and stands still after 4.4 s. `t` in s.
 inline wire::CameraParams quick_pans(double t) {
   wire::CameraParams params;
   params.format = wire::euler;
@@ -41,13 +41,13 @@ inline wire::CameraConstants video_constants() {
   return constants;
 }
 
-/// Frames of the card, with what spoils them.
+/// Frames of the card, with disturbances.
 class CardVideo {
  public:
-  bool foreground = false;  ///< somebody walks to and fro before a fifth of the picture
+  bool foreground = false;  ///< somebody walks to and fro in front of a fifth of the picture
   double noise = 0;         ///< standard deviation, levels of grey
 
-  /// Of a camera of these parameters, at a time (s) that only the foreground asks for.
+  /// Of a camera with these parameters. `t` in s: only the foreground depends on it.
   cv::Mat frame(const wire::CameraParams& params, double t) {
     const auto view = demo::View::of(params, video_constants());
     if (!view) throw std::runtime_error("no view");

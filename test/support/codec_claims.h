@@ -1,4 +1,4 @@
-// What holds for any bytes that are given to the codec. The fuzz target and the tests claim the same.
+// Properties that hold for any bytes that the codec decodes. The fuzz target and the tests check the same ones.
 #pragma once
 
 #include <cmath>
@@ -30,7 +30,7 @@ inline bool all_finite(const wire::CameraConstants& c) {
   return sum == 0;
 }
 
-/// `record` written in `form` and read again with that layout given; nothing when either fails.
+/// `record` written in `form` and read again with that layout given; none if either fails.
 template <class Record>
 std::optional<Record> round_trip(const Record& record, wire::WireForm form) {
   wire::Buffer buffer;
@@ -61,7 +61,7 @@ std::string broken_claim_of(const Record& record, wire::WireForm form) {
   return {};
 }
 
-/// Decodes `datagram` and names the claim that does not hold; empty when all do, be it a record or not.
+/// Decodes `datagram` and returns the property that does not hold; empty if all hold, also if it is not a record.
 inline std::string broken_claim(std::string_view datagram, wire::LayoutDetector& detector) {
   const auto before = detector.seen();
   const auto read = wire::decode(datagram, detector);

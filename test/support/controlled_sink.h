@@ -1,4 +1,4 @@
-// A sink whose writes wait for the test's permission, to stand for a disk or a segment that is slow.
+// A sink whose writes wait for the test's permission, like a slow disk or segment.
 #pragma once
 
 #include <chrono>
@@ -18,10 +18,10 @@
 
 namespace trk_bridge::test {
 
-/// What a gated sink was given, and whether it may go on. Any thread.
+/// What a controlled sink has received, and whether it may continue. Any thread.
 class SinkControl {
  public:
-  /// From now on writes end.
+  /// From now on writes return.
   void open() {
     change([&] { open_ = true; });
   }
@@ -29,23 +29,23 @@ class SinkControl {
     change([&] { fault_ = fault; });
   }
 
-  /// From now on opening waits until it is permitted.
+  /// From now on opening blocks until it is permitted.
   void block_opening() {
     change([&] { may_open_ = false; });
   }
   void permit_opening() {
     change([&] { may_open_ = true; });
   }
-  /// Why opening fails; empty: it does not.
+  /// Why opening fails; empty: it succeeds.
   void set_opening_error(const std::string& error) {
     change([&] { opening_error_ = error; });
   }
-  /// Every write takes so long.
+  /// Every write takes this long.
   void set_delay(std::chrono::milliseconds delay) {
     change([&] { delay_ = delay; });
   }
 
-  /// Whether it was tried that often to open it.
+  /// Whether this many attempts to open it have been made within the deadline.
   bool was_tried(int times) {
     return becomes([&] { return attempts_ >= times; });
   }
@@ -53,7 +53,7 @@ class SinkControl {
   bool closes() {
     return becomes([&] { return closed_; });
   }
-  /// Whether that many records, or more, were written within the deadline.
+  /// Whether at least this many records were written within the deadline.
   bool has_written(std::size_t count) {
     return becomes([&] { return records_.size() >= count; });
   }
@@ -157,7 +157,7 @@ class ControlledSink final : public transport::Sink {
   const std::string name_;
 };
 
-/// An endpoint of a control that what is opened may outlive.
+/// An endpoint whose sinks share the control: they may outlive the caller's pointer.
 inline transport::SinkEndpoint endpoint_of(const std::shared_ptr<SinkControl>& control,
                                            transport::Blocking blocking = transport::Blocking::never,
                                            const transport::SinkForm& form = {}, const std::string& name = "control") {
@@ -168,7 +168,7 @@ inline transport::SinkEndpoint endpoint_of(const std::shared_ptr<SinkControl>& c
   endpoint.open = [control, name] { return std::make_unique<ControlledSink>(control, name); };
   return endpoint;
 }
-/// An endpoint of a control that outlives what is opened.
+/// An endpoint of a control that outlives the sinks that are opened.
 inline transport::SinkEndpoint endpoint_of(SinkControl& control,
                                            transport::Blocking blocking = transport::Blocking::never,
                                            const transport::SinkForm& form = {}, const std::string& name = "control") {

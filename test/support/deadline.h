@@ -6,12 +6,12 @@
 
 namespace trk_bridge::test {
 
-/// How long anything that has to happen may take. It only guards against waiting for ever: no test that passes waits as
-/// long, also on a machine that is busy with other things.
+/// How long an expected event may take. It only prevents waiting for ever: a test that passes does not wait that long,
+/// also on a busy machine.
 inline constexpr std::chrono::seconds deadline{60};
 
-/// Asks `condition` again and again until it is true or the deadline has passed; whether it became true. For what gives
-/// no sign of its own.
+/// Polls `condition` until it is true or the deadline has passed; whether it became true. For events that cannot be
+/// waited for.
 template <typename Condition>
 bool becomes_true(Condition&& condition) {
   const auto end = std::chrono::steady_clock::now() + deadline;

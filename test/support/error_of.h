@@ -5,7 +5,7 @@
 
 namespace trk_bridge::test {
 
-/// The message of the `Error` that `work` throws; "no error" if it throws nothing. Other exceptions pass.
+/// The message of the `Error` that `work` throws; "no error" if it throws nothing. Other exceptions are not caught.
 template <typename Error, typename Work>
 std::string error_of(const Work& work) {
   try {

@@ -1,4 +1,4 @@
-// A file that keeps tests in other processes away from what it stands for.
+// A file that locks a resource against tests in other processes.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace trk_bridge::test {
 
-/// Held until it is destroyed. The file stays: a lock file that is removed can be held twice.
+/// Held until it is destroyed. The file is not removed: a lock file that is removed can be held twice.
 class FileLock {
  public:
-  /// Made when it is not there. Whether it is held: held().
+  /// The file is created if it does not exist. held() says whether the lock is held.
   explicit FileLock(const std::string& path) : fd_(::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)) {
     if (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0) ::close(std::exchange(fd_, -1));
   }
@@ -23,7 +23,7 @@ class FileLock {
   FileLock(FileLock&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
   FileLock& operator=(FileLock&&) = delete;
 
-  /// False: somebody else holds it, or it cannot be opened.
+  /// False: another process holds it, or it cannot be opened.
   bool held() const { return fd_ >= 0; }
 
  private:

@@ -1,4 +1,4 @@
-// A shared memory slot that nobody uses, for the time of one test.
+// An unused shared memory slot for the duration of one test.
 #pragma once
 
 #include <optional>
@@ -16,11 +16,11 @@
 
 namespace trk_bridge::test {
 
-/// Holds a slot against tests in other processes and leaves neither file nor segment behind.
+/// Locks a slot against tests in other processes and removes its file and its segment at the end.
 class FreeSlot {
  public:
   FreeSlot() {
-    // From the end: the field takes low slots.
+    // From the end: existing programs use low slots.
     for (number_ = 61; number_ >= 0; --number_) {
       FileLock lock("/tmp/trk_bridge_test_slot." + std::to_string(number_));
       if (!lock.held() || has_file()) continue;
@@ -57,7 +57,7 @@ class FreeSlot {
     ::close(fd);
   }
 
-  /// Makes file and segment as another program would. Returns its id.
+  /// Creates file and segment as another program does. Returns the segment's id.
   int make_segment(std::size_t size, int mode = 0666) {
     make_file();
     const int id = ::shmget(::ftok(path().c_str(), 0), size, IPC_CREAT | IPC_EXCL | mode);
@@ -65,7 +65,7 @@ class FreeSlot {
     return id;
   }
 
-  /// As an administrator does with ipcrm and rm.
+  /// As with ipcrm and rm.
   void remove() {
     if (const int id = segment(); id >= 0) ::shmctl(id, IPC_RMID, nullptr);
     ::unlink(path().c_str());

@@ -1,4 +1,4 @@
-// Messages of Free-D as their bytes, and what holds for any bytes at all.
+// Messages of Free-D as bytes, and properties that hold for any bytes.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ inline std::string bytes(std::initializer_list<int> values) {
   return all;
 }
 
-/// Numbers of every kind, worked out by hand:
+/// Numbers of every kind, calculated by hand:
 ///   camera 7
 ///   pan    30 degrees      * 32768 =  983040 = 0x0F0000
 ///   tilt   -5.5 degrees    * 32768 = -180224 = -0x2C000, 0x1000000 - 0x02C000 = 0xFD4000
@@ -35,7 +35,7 @@ inline std::string worked_message() {
                 0x0B, 0xE0, 0x01, 0xB5, 0x80, 0x01, 0x23, 0x45, 0x0A, 0xBC, 0xDE, 0x11, 0x18, 0x2F});
 }
 
-/// The ends of the ranges, worked out by hand:
+/// The limits of the ranges, calculated by hand:
 ///   camera 255
 ///   pan    -180 degrees * 32768 = -5898240 = -0x5A0000, 0x1000000 - 0x5A0000 = 0xA60000
 ///   tilt   90 degrees   * 32768 =  2949120 = 0x2D0000
@@ -67,7 +67,7 @@ inline std::shared_ptr<const lens::Table> table_of(const std::string& yaml) {
   return std::make_shared<const lens::Table>(*std::move(table));
 }
 
-/// Decodes `datagram` and names the claim that does not hold; empty when all do, be it a message or not.
+/// Decodes `datagram` and returns the property that does not hold; empty if all hold, also if it is not a message.
 inline std::string broken_freed_claim(std::string_view datagram, freed::DecoderOptions options) {
   const bool lenient = options.lenient, has_table = options.table != nullptr;
   freed::Decoder decoder(std::move(options));

@@ -1,4 +1,4 @@
-// Storage that does not answer, as a share whose server is gone.
+// Storage that does not respond, like a network share whose server is gone.
 #pragma once
 
 #include <cerrno>
@@ -13,8 +13,8 @@
 
 namespace trk_bridge::test {
 
-/// Mounted on a directory, in this process's mount namespace: every access to what is in it waits for ever. Who waits
-/// can be killed, as with a share.
+/// Mounted on a directory, in this process's mount namespace: every access to its contents blocks for ever. A blocked
+/// process can be killed, as with a network share.
 class HungStorage {
  public:
   /// Throws std::runtime_error where the system does not allow it.
@@ -42,7 +42,7 @@ class HungStorage {
       throw std::runtime_error("the kernel does not take the answer");
     }
   }
-  /// Who waits gets an error.
+  /// Blocked accesses get an error.
   ~HungStorage() {
     ::close(fd_);
     ::umount2(directory_.c_str(), MNT_DETACH);

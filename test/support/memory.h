@@ -19,7 +19,7 @@
 
 namespace trk_bridge::test {
 
-/// Unbounded, in order, nothing is lost; what one source takes the others do not see. Any thread.
+/// Unbounded, in order, without loss; each entry is received by one source only. Any thread.
 class MemoryQueue {
  public:
   struct Entry {
@@ -42,11 +42,11 @@ class MemoryQueue {
     Entry entry = entries_.front();
     entries_.pop_front();
     eventfd_t taken = 0;
-    // Each entry added one, so that there is one to take.
+    // Each entry added one to the descriptor.
     (void)::eventfd_read(available_.get(), &taken);
     return entry;
   }
-  /// Readable while there is something to take.
+  /// Readable while there are entries.
   int fd() const noexcept { return available_.get(); }
 
  private:

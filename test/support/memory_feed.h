@@ -1,4 +1,4 @@
-// A source that says what a test wants, to its end.
+// A source that gives the events that a test has put in.
 #pragma once
 
 #include <memory>

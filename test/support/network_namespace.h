@@ -1,4 +1,4 @@
-// Networks of a test's own, whose interfaces come and go as it wants.
+// Private networks of a test, which can add and remove their interfaces.
 #pragma once
 
 #include <fcntl.h>
@@ -15,10 +15,10 @@
 
 namespace trk_bridge::test {
 
-/// A network namespace, empty but for its loopback, which is up. It ends with the last descriptor and socket in it.
+/// A network namespace that has only a loopback interface, which is up. It ends with its last descriptor and socket.
 class NetworkNamespace {
  public:
-  /// Throws std::runtime_error with the reason, for GTEST_SKIP: a user who is not root may not have one.
+  /// Throws std::runtime_error with the reason, for GTEST_SKIP: users other than root may not be allowed to create one.
   NetworkNamespace() {
     int error = 0;
     std::thread([&] {
@@ -33,7 +33,7 @@ class NetworkNamespace {
   NetworkNamespace(const NetworkNamespace&) = delete;
   NetworkNamespace& operator=(const NetworkNamespace&) = delete;
 
-  /// This thread's sockets, threads and programs are in the namespace while it lives.
+  /// While it exists, new sockets, threads and processes of this thread are in the namespace.
   class Stay {
    public:
     explicit Stay(const NetworkNamespace& in) : before_(current()) { enter(in.fd_); }
@@ -51,7 +51,7 @@ class NetworkNamespace {
     int before_;
   };
 
-  /// Lines of `ip -batch`. Throws std::runtime_error when one is refused.
+  /// Lines for `ip -batch`. Throws std::runtime_error if one fails.
   void ip(const std::string& lines) const {
     const Stay stay(*this);
     std::FILE* program = ::popen("ip -batch -", "we");

@@ -1,4 +1,4 @@
-// Centres of discs and lines in grey pictures, found without knowing how they were drawn.
+// Finds the centres of discs and lines in grey pictures without knowledge of how they were drawn.
 #pragma once
 
 #include <algorithm>
@@ -17,15 +17,15 @@ namespace trk_bridge::test {
 struct Looks {
   double ground = 30;       ///< level between them
   double tolerance = 5;     ///< of the ground's level
-  double disc_level = 230;  ///< discs are at least so bright, nothing else is
+  double disc_level = 230;  ///< only discs are at least this bright
   double disc_reach = 10.5;
-  double disc_clearance = 12;  ///< between the two there is ground about a disc
-  double line_contrast = 60;   ///< that lines stand out by at least
+  double disc_clearance = 12;  ///< between the two radii there is only ground around a disc
+  double line_contrast = 60;   ///< least contrast of lines
   double line_reach = 5;
-  double line_clearance = 7.5;  ///< between the two there is ground beside a line
+  double line_clearance = 7.5;  ///< between the two distances there is only ground beside a line
 };
 
-/// Between pixels; the picture must have the pixels around it.
+/// Interpolated; the picture must contain the surrounding pixels.
 inline double level_at(const cv::Mat& picture, const Eigen::Vector2d& pixel) {
   const int u = static_cast<int>(std::floor(pixel.x())), v = static_cast<int>(std::floor(pixel.y()));
   const double right = pixel.x() - u, below = pixel.y() - v;
@@ -40,7 +40,7 @@ inline bool is_inside(const cv::Mat& picture, const Eigen::Vector2d& pixel, doub
          pixel.y() < picture.rows - 1 - margin;
 }
 
-/// Centroid of the disc about `near`; none when there is not ground all around it.
+/// Centroid of the disc around `near`; none if it is not surrounded by ground.
 inline std::optional<Eigen::Vector2d> disc_center(const cv::Mat& picture, const Eigen::Vector2d& near,
                                                   const Looks& looks = {}) {
   if (!is_inside(picture, near, looks.disc_clearance + 1)) return std::nullopt;
@@ -64,7 +64,7 @@ inline std::optional<Eigen::Vector2d> disc_center(const cv::Mat& picture, const 
   return moment / weight;
 }
 
-/// All discs that stand alone.
+/// All discs that touch nothing else.
 inline std::vector<Eigen::Vector2d> disc_centers(const cv::Mat& picture, const Looks& looks = {}) {
   cv::Mat bright, labels, statistics, centroids;
   cv::threshold(picture, bright, looks.disc_level, 255, cv::THRESH_BINARY);
@@ -83,8 +83,8 @@ struct Crossing {
   double weight = 0;       ///< sum of its levels over the ground
 };
 
-/// Of the line that passes by `near`, along `normal` (a unit vector); none when there is no line there or not ground on
-/// both sides of it.
+/// Of the line that passes by `near`, along `normal` (a unit vector); none if there is no line, or not ground on both
+/// sides of it.
 inline std::optional<Crossing> cross_line(const cv::Mat& picture, const Eigen::Vector2d& near,
                                           const Eigen::Vector2d& normal, const Looks& looks = {}) {
   if (!is_inside(picture, near, looks.line_clearance + 1)) return std::nullopt;
@@ -107,8 +107,8 @@ inline std::optional<Crossing> cross_line(const cv::Mat& picture, const Eigen::V
   return Crossing{near + moment / weight * normal, weight};
 }
 
-/// Which of the crossings have the weight of their neighbourhood: of a line that is half covered by something else the
-/// middle is elsewhere.
+/// Which of the crossings have the weight of their neighbours: where something else covers half of a line, its middle
+/// is wrong.
 inline std::vector<bool> are_whole(const std::vector<std::optional<Crossing>>& crossings) {
   constexpr std::size_t around = 12;
   constexpr double tolerance = 0.015;
@@ -127,7 +127,7 @@ inline std::vector<bool> are_whole(const std::vector<std::optional<Crossing>>& c
   return whole;
 }
 
-/// Middles of those crossings that are whole as are those next to them.
+/// Middles of the crossings that are complete, and whose neighbours are complete.
 inline std::vector<Eigen::Vector2d> whole_centers(const std::vector<std::optional<Crossing>>& crossings) {
   constexpr std::size_t next = 2;
   const std::vector<bool> whole = are_whole(crossings);
@@ -141,17 +141,17 @@ inline std::vector<Eigen::Vector2d> whole_centers(const std::vector<std::optiona
   return centers;
 }
 
-/// Middles of a line every few pixels along where it is expected to be, to a pixel or two.
+/// Middles of a line every few pixels along its expected place, which is right to a pixel or two.
 inline std::vector<Eigen::Vector2d> line_centers(const cv::Mat& picture, const std::vector<Eigen::Vector2d>& expected,
                                                  const Looks& looks = {}) {
-  constexpr double every = 5.3;  // pixels: all positions between pixels are met
+  constexpr double every = 5.3;  // pixels: gives all fractions of a pixel
   std::vector<std::optional<Crossing>> crossings;
   for (std::size_t i = 1; i < expected.size(); ++i) {
     const Eigen::Vector2d along = expected[i] - expected[i - 1];
     const double length = along.norm();
     if (!(length > 0)) continue;
     const Eigen::Vector2d direction = along / length;
-    // Only the part that can be inside: expected lines may go on for ever.
+    // Only the part that can be inside: expected lines may be infinite.
     const double middle = (Eigen::Vector2d(picture.cols, picture.rows) / 2 - expected[i - 1]).dot(direction);
     const double half = std::hypot(picture.cols, picture.rows) / 2;
     const double begin = std::max(0.0, middle - half), end = std::min(length, middle + half);
@@ -163,7 +163,7 @@ inline std::vector<Eigen::Vector2d> line_centers(const cv::Mat& picture, const s
   return whole_centers(crossings);
 }
 
-/// The farthest of the points from the straight line that fits them best.
+/// The largest distance of a point from the straight line that fits the points best.
 inline double deviation_from_straight(const std::vector<Eigen::Vector2d>& points) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const auto& point : points) mean += point / static_cast<double>(points.size());

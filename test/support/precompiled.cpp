@@ -1,1 +1,1 @@
-// A target has a source: this one has the headers that all tests share.
+// A target needs a source: this one includes the headers that all tests share.

@@ -1,4 +1,4 @@
-// A program of the project as its user runs it: started, watched, signalled, waited for.
+// Runs a program of the project as its user does: starts it, reads its output, sends signals, waits for its end.
 #pragma once
 
 #include <cerrno>
@@ -20,8 +20,8 @@
 
 namespace trk_bridge::test {
 
-/// Its standard input is empty. Whoever destroys a running one kills it; it gets SIGTERM when the thread that started
-/// it ends.
+/// Its standard input is empty. The destructor kills a running program; it gets SIGTERM when the thread that started it
+/// ends.
 class Program {
  public:
   explicit Program(std::vector<std::string> words) : words_(std::move(words)) {
@@ -46,17 +46,17 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// The next line without its newline; none at the end, or when nothing comes within the deadline.
+  /// The next line without its newline; none at the end, or if no line is received within the deadline.
   std::optional<std::string> out_line() { return line(out_); }
   std::optional<std::string> err_line() { return line(err_); }
 
-  /// Everything that is still to come, until the program closes it.
+  /// Everything until the program closes it.
   std::string rest_of_out() { return rest(out_); }
   std::string rest_of_err() { return rest(err_); }
 
   pid_t pid() const { return pid_; }
   void signal(int number) const { ::kill(pid_, number); }
-  /// As a reader in a pipe that has seen enough.
+  /// Like a reader of a pipe that stops reading.
   void close_out() {
     if (out_.fd >= 0) ::close(out_.fd);
     out_.fd = -1;
@@ -90,7 +90,7 @@ class Program {
     ::_exit(127);
   }
 
-  /// False at the end, or after the deadline in silence.
+  /// False at the end, or if nothing is received within the deadline.
   static bool more(Stream& stream) {
     pollfd watched{stream.fd, POLLIN, 0};
     if (::poll(&watched, 1, static_cast<int>(std::chrono::milliseconds(deadline).count())) != 1) return false;

@@ -1,4 +1,4 @@
-// Something that is done at a rate beside the test, until the end of this object.
+// Repeats an action at a rate in its thread, until this object is destroyed.
 #pragma once
 
 #include <chrono>

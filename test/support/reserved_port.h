@@ -1,4 +1,4 @@
-// A port number for a program that has to be given one, for the time of one test.
+// A port number for a program that needs one, for the duration of one test.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace trk_bridge::test {
 
-/// A UDP port that nobody is bound to and that no other test is given. The kernel gives it to nobody, either: it is
-/// below the ports that the kernel picks from. Who can bind port 0 and ask for its number does that instead.
+/// A UDP port that no socket is bound to and that no other test gets. The kernel does not assign it either: it is below
+/// the range of ephemeral ports. A test that can bind port 0 and read its number should do that instead.
 class ReservedPort {
  public:
   ReservedPort() {

@@ -1,5 +1,5 @@
-// Whether two cameras or two angles are one, after a way that may cost digits or, with CameraInfo, a little of the
-// lens.
+// Whether two cameras or two angles are equal, after a conversion that may lose digits or, with CameraInfo, a little of
+// the lens.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace trk_bridge::test {
 
-/// Without sign, and without whole turns.
+/// The absolute difference, modulo 360 degrees.
 inline double degrees_apart(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
 
 /// To 1e-9, relative beyond 1.
@@ -39,7 +39,7 @@ inline ::testing::AssertionResult same_to_the_digits(const camera::Camera& camer
   return ::testing::AssertionSuccess();
 }
 
-/// The farthest that any pixel of a grid over the image is from where it was; infinite where one has no place.
+/// The largest displacement of a pixel of a grid over the image; infinite if one cannot be projected.
 inline double worst_pixel(const camera::Lens& lens, const camera::Lens& wanted,
                           const wire::CameraConstants& constants) {
   constexpr int steps = 8;

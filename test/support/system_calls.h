@@ -22,12 +22,12 @@ inline int total(const SystemCalls& calls) {
   return sum;
 }
 
-/// Runs `work` in a child process: `work(counted)` prepares, calls `counted(part)`, and returns whether all went well.
-/// Gives the system calls of `part` by the thread that runs it; none where `work` failed, or with `is_permitted` false
-/// where this process may not trace.
+/// Runs `work` in a child process: `work(counted)` prepares, calls `counted(part)`, and returns whether it succeeded.
+/// Returns the system calls of `part` by the thread that runs it; none if `work` failed, or with `is_permitted` false
+/// if this process may not trace.
 template <typename Work>
 std::optional<SystemCalls> system_calls_of(const Work& work, bool& is_permitted) {
-  // Calls that do nothing, with an argument that nobody else gives.
+  // Calls that do nothing, with an argument that no other code passes.
   constexpr long begin = -1234567, end = -1234568;
   constexpr int not_permitted = 3;
   is_permitted = true;

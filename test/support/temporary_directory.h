@@ -1,4 +1,4 @@
-// A directory that goes away with its test, and files in it.
+// A directory that is removed at the end of its test, and files in it.
 #pragma once
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// A limit of time for each test, however many a program has.
+// A time limit for each test of a program.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace trk_bridge::test {
 
-/// Ends the program when a test takes longer than the limit: it would hang for ever.
+/// Ends the program if a test takes longer than the limit, because it would hang for ever.
 class TestLimit : public ::testing::EmptyTestEventListener {
  public:
   explicit TestLimit(std::chrono::seconds limit) : limit_(limit) {}
@@ -44,7 +44,7 @@ class TestLimit : public ::testing::EmptyTestEventListener {
   std::thread watch_;
 };
 
-/// For every test of this program: longer than several waits of one test take that all fail.
+/// For every test of this program: longer than several waits of one test that all fail.
 inline void limit_each_test() {
   ::testing::UnitTest::GetInstance()->listeners().Append(new TestLimit(std::chrono::seconds(600)));
 }

@@ -1,4 +1,4 @@
-// Plain sockets on the loopback, as a tracker or a receiver has them.
+// Plain sockets on the loopback, as of a tracker or a receiver.
 #pragma once
 
 #include <arpa/inet.h>
@@ -110,12 +110,12 @@ std::string datagram(const Record& record, wire::WireForm form = {}) {
   return std::string(*bytes);
 }
 
-/// The next thing that the source says within the deadline.
+/// The next event of the source within the deadline.
 inline transport::Event next(transport::Source& source, transport::Reception& reception) {
   return source.receive(reception, deadline);
 }
 
-/// The counter of the next record, which has to be parameters.
+/// The counter of the next record, which must be parameters.
 inline std::optional<std::uint64_t> next_counter(transport::Source& source) {
   transport::Reception reception;
   if (next(source, reception) != transport::Event::sample) return {};

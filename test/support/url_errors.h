@@ -7,13 +7,13 @@
 
 namespace trk_bridge::test {
 
-/// Why the URL names no source; "no error" if it names one.
+/// Why the URL is not valid for a source; "no error" if it is.
 inline std::string read_error(const std::string& url) {
   const auto endpoint = endpoints::parse_source(url);
   return endpoint ? "no error" : endpoint.error();
 }
 
-/// Why the URL names no sink; "no error" if it names one.
+/// Why the URL is not valid for a sink; "no error" if it is.
 inline std::string write_error(const std::string& url) {
   const auto endpoint = endpoints::parse_sink(url);
   return endpoint ? "no error" : endpoint.error();

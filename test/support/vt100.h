@@ -1,4 +1,4 @@
-// A terminal of type vt100 as far as a program uses it that draws a screen: what would stand on it.
+// The part of a vt100 terminal that programs with a screen use: what its screen shows.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class Vt100 {
     bottom_ = height - 1;
   }
 
-  /// Any piece of what the program writes: sequences may be cut anywhere.
+  /// Any part of the output of the program: sequences may be split anywhere.
   void write(std::string_view bytes) {
     for (const char c : bytes) put(c);
   }

@@ -1,4 +1,4 @@
-// A take in memory, as a whole.
+// A complete take in memory.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace trk_bridge::file {
 
 struct Take {
-  /// A line that is not there.
+  /// A line that is missing from the take.
   struct LeftOut {
     std::size_t position;  ///< in `params`, of the line behind it
     transport::Fault fault;
@@ -20,12 +20,12 @@ struct Take {
   base::TimeCode time_code;
   wire::CameraConstants constants;
   std::vector<wire::CameraParams> params;
-  std::vector<LeftOut> left_out;  ///< lines: a last one that is cut, and with MalformedLines::are_skipped others
+  std::vector<LeftOut> left_out;  ///< lines: a truncated last one, and with Unsound::is_left_out others
 };
 
-/// Throws transport::TransportError as the reader says it.
-inline Take read_take(const std::string& path, MalformedLines malformed = MalformedLines::are_errors) {
-  TakeReader reader(path, malformed, Waiting::blocks);
+/// Throws transport::TransportError with the reader's message.
+inline Take read_take(const std::string& path, Unsound unsound = Unsound::is_error) {
+  TakeReader reader(path, unsound, Waiting::blocks);
   Take take;
   for (;;) {
     switch (reader.next()) {

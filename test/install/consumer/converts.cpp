@@ -2,7 +2,7 @@
 #include <trk_bridge/wire/codec.h>
 #include <trk_bridge/wire/format.h>
 
-// A camera of this program's own, written as the record of a datagram and read back from its bytes.
+// A camera of this program, written as the record of a datagram and read again from its bytes.
 int main() {
   trk_bridge::camera::Camera camera;
   camera.pose.translation() = Eigen::Vector3d(1.0, 2.0, 3.0);

@@ -1,4 +1,4 @@
-// trk bag as its users run it.
+// trk bag, run like a user does.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -54,10 +54,10 @@ TEST_F(BagCommandTest, ExistingTargetsNeedOverwrite) {
   EXPECT_EQ(test::read_text(directory / "back.trk"), "precious");
 }
 
-/// On a small file system of their own, which nobody else sees.
+/// On a small private file system.
 class OnAFullDisk : public BagCommandTest {
  protected:
-  /// Runs it where `size` is left, and then lists the directory.
+  /// Runs it where `size` bytes are free, and then lists the directory.
   int run_with_room(const std::string& size, const std::string& arguments) {
     test::Program program({"/bin/sh", "-c",
                            "exec unshare --user --map-root-user --mount /bin/sh -c 'mount -t tmpfs -o size=" + size +

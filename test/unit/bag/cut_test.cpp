@@ -1,4 +1,4 @@
-// Bags whose recorder died or whose end was lost give what they hold, whole record by whole record.
+// From bags whose recorder died or whose end was lost, every complete record is read.
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -28,7 +28,7 @@ class CutBag : public BagTest {
     return read_text(to_bag(path, options));
   }
 
-  /// How many fields the first bytes give, all of which must be the take's own; none when it is refused.
+  /// How many fields the first bytes give, all of which must be equal to the take's; none if the bag is refused.
   std::optional<std::size_t> fields_of(const std::string& bytes) {
     write_text(directory / "cut.bag", bytes);
     try {
@@ -55,12 +55,12 @@ TEST_F(CutBag, GivesEveryCompleteRecordForAnyLength) {
   std::size_t before = 0;
   for (std::size_t size = 0; size < bytes.size(); size += 37'077) {
     const std::size_t fields = fields_of(bytes.substr(0, size)).value_or(0);
-    // A field is less than 1000 bytes, and the bag begins and ends with less than 250000 that are none.
+    // A field takes less than 1000 bytes; the other bytes at the begin and the end of the bag are less than 250000.
     EXPECT_GE(1000 * fields + 250'000, size);
     EXPECT_GE(fields, before);
     before = fields;
   }
-  EXPECT_EQ(fields_of(bytes.substr(0, bytes.size() - 1)), all.size()) << "only its index is cut";
+  EXPECT_EQ(fields_of(bytes.substr(0, bytes.size() - 1)), all.size()) << "only its index is truncated";
   EXPECT_THAT(err.str(), HasSubstr("cut.bag is cut short: "));
 }
 
@@ -93,7 +93,7 @@ TEST_F(CutBag, TruncatedCompressedChunksGiveWhatCanBeUnpacked) {
 }
 
 TEST_F(CutBag, MessagesOfACrashedRecorderAreRead) {
-  // Compressed ones reach the disk a chunk of 768 KiB at a time.
+  // Compressed bags are written in chunks of 768 KiB.
   const std::vector<wire::CameraParams> long_take = some_fields(6000);
   const auto long_bits = bits_of(long_take);
   for (const auto compression :
@@ -133,7 +133,7 @@ TEST_F(CutBag, DamageNeverCrashes) {
   std::mt19937 random(1998);
   for (const char* compression : {"none", "bz2", "lz4"}) {
     const std::string whole = bag_text(compression);
-    // Without the index, and with it: there damage is at its end as well.
+    // Without the index, and with it: then the damage is also at its end.
     for (const std::string& bytes : {whole.substr(0, whole.size() * 2 / 3), whole}) {
       for (int round = 0; round < 25; ++round) {
         std::string damaged = bytes;

@@ -1,4 +1,4 @@
-// The delay between video and tracking in bags, also as users of trk delay see it.
+// The delay between video and tracking in bags, also with the program trk delay.
 #include "bag/delay_command.h"
 
 #include <functional>
@@ -50,7 +50,7 @@ class DelayOfBag : public BagTest {
     }
   }
 
-  /// Frames of 25 Hz that are late by `delay`, made only once.
+  /// Frames of 25 Hz that are late by `delay`, rendered only once.
   void put_video(const std::function<void(double stamp, const cv_bridge::CvImage&)>& put) {
     static const std::vector<cv::Mat> frames = [] {
       std::vector<cv::Mat> made;

@@ -1,4 +1,4 @@
-// Bags and takes in a directory of their own.
+// Bags and takes in a temporary directory.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@
 
 namespace trk_bridge::bag {
 
-/// A record's bytes, so that equal means equal bit for bit.
+/// A record's bytes: equal bytes are equal bit for bit.
 template <typename RecordType>
 std::string bits(const RecordType& record) {
   wire::Buffer buffer;
@@ -92,7 +92,7 @@ class BagTest : public ::testing::Test {
   cli::LongRun run{err, /*is_terminal=*/false};
 };
 
-/// A bag as somebody else writes it.
+/// A bag as other programs write it.
 class SomeBag {
  public:
   explicit SomeBag(std::string path, rosbag::CompressionType compression = rosbag::compression::Uncompressed)

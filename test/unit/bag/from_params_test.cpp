@@ -1,4 +1,4 @@
-// Takes out of recordings of params and constants, with all that recordings may lack.
+// Takes from recordings of params and constants, also incomplete ones.
 #include <cmath>
 #include <limits>
 
@@ -149,7 +149,7 @@ TEST_F(FromParams, ATakeContainsOneId) {
 
 TEST_F(FromParams, AWarningReplacesTheProgressLine) {
   for (std::uint64_t fields = 20'000; err.str().find("trk: reading") == std::string::npos; fields *= 2) {
-    ASSERT_LT(fields, 10'000'000u) << "however long it takes to read, no progress is shown";
+    ASSERT_LT(fields, 10'000'000u) << "no progress is shown, independent of how long reading takes";
     SomeBag many(directory / "many.bag", rosbag::compression::BZ2);
     many.put("/crane/constants", 99, constants_message(5));
     for (std::uint64_t i = 0; i < fields; ++i) {

@@ -1,4 +1,4 @@
-// Takes out of recordings of tf and camera_info.
+// Takes from recordings of tf and camera_info.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A crane: the column turns, the head sits on a fixed arm, the camera looks where the head does.
+/// A crane: the column turns, the head is on a fixed arm, the camera looks in the head's direction.
 class FromTf : public BagTest {
  protected:
   static tf2_msgs::TFMessage pan_at(double stamp, double pan_degrees) {
@@ -120,7 +120,7 @@ TEST_F(FromTf, TheFrameOfTheCameraAxesCanBeSet) {
 }
 
 TEST_F(FromTf, TheOrderOfRecordingDoesNotMatter) {
-  // 40 s, longer than the buffer of tf; what is late is so by up to 15 s.
+  // 40 s, longer than the buffer of tf; transforms are late by up to 15 s.
   std::mt19937 random(1998);
   std::vector<std::string> takes;
   for (const bool shuffled : {false, true}) {
@@ -132,14 +132,14 @@ TEST_F(FromTf, TheOrderOfRecordingDoesNotMatter) {
     for (int i = 0; i < 2000; ++i) {
       const double stamp = 100 + i / 50.0;
       auto tf = pan_at(stamp - 0.005, 30 * std::sin(i / 100.0));
-      // Of a stamp that comes twice, the same.
+      // The same for a stamp that occurs twice.
       if (i % 10 == 0) tf.transforms.push_back(tf.transforms.front());
       messages.put("/tf", recorded(stamp), tf);
       messages.put("/cam/camera_info", recorded(stamp), info_at(stamp));
     }
     takes.push_back(test::read_text((to_take(messages.closed(), with_chip()), directory / "back.trk")));
   }
-  EXPECT_EQ(std::count(takes[0].begin(), takes[0].end(), '\n'), 3 + 2 + 1999) << "the last one has no pose behind it";
+  EXPECT_EQ(std::count(takes[0].begin(), takes[0].end(), '\n'), 3 + 2 + 1999) << "the last one has no pose after it";
   EXPECT_TRUE(takes[0] == takes[1]);
 }
 
@@ -236,7 +236,7 @@ TEST_F(FromTf, ALongRecordingIsConvertedCompletely) {
   }
 }
 
-/// The worked takes of the field, through tf and camera_info.
+/// The takes of existing programs, through tf and camera_info.
 class TakeThroughTf : public BagTest, public testing::WithParamInterface<const char*> {};
 
 TEST_P(TakeThroughTf, IsTheSameCamera) {

@@ -1,4 +1,4 @@
-// What rosbag's own library reads of a bag, in the same order; and memory that does not grow with the bag.
+// The same messages in the same order as with rosbag's library; and memory that does not grow with the bag.
 #include <random>
 #include <set>
 
@@ -83,7 +83,7 @@ TEST_P(ReaderTest, OnlyWantedMessagesAreReadUntilTheVisitorStops) {
   std::vector<std::string> read;
   bag.read_while([](const Connection& connection) { return connection.topic == "/a"; },
                  [&](const RawMessage& raw) {
-                   // A visitor may read, too.
+                   // A visitor may also read.
                    std::size_t all = 0;
                    bag.read([](const Connection&) { return true; }, [&all](const RawMessage&) { ++all; });
                    EXPECT_EQ(all, 500U);
@@ -101,7 +101,7 @@ TEST_P(ReaderTest, ADamagedChunkIsNamed) {
   for (std::size_t i = second + 60; i < second + 400; ++i) bytes[i] = '\xAA';
   test::write_text(path, bytes);
   const std::string error = test::error_of<BagError>([&] { by_us(path); });
-  // Its record begins with the sizes of the header and of its first field.
+  // Its record starts with the sizes of the header and of its first field.
   EXPECT_THAT(error, HasSubstr("the bag is damaged: the chunk at byte " + std::to_string(second - 8) + " "));
 }
 

@@ -1,5 +1,5 @@
-// What trk_to_ros with format:=as_received would have published, as rosbag's own library reads it; and the way back to
-// the same take.
+// What trk_to_ros with format:=as_received would have published, as rosbag's library reads it; and the conversion back
+// to the same take.
 #include <filesystem>
 #include <map>
 
@@ -126,7 +126,7 @@ TEST_F(ToBag, ContainsWhatTheNodePublishes) {
 TEST_F(ToBag, TimeCodesAreMessagesAndAreRestored) {
   TakeToBagOptions options;
   options.field_rate = 59.94;
-  options.start = 1'700'000'000'000'000'000;  // no time of day says the code
+  options.start = 1'700'000'000'000'000'000;  // the time code contains no time of day
   const auto take = take_of(some_fields(200), "made.trk", {0, 59, 59, 29, 1, true});
   const auto path = to_bag(take, options);
   rosbag::Bag bag(path);

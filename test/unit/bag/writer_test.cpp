@@ -1,4 +1,4 @@
-// A bag is what rosbag's own library writes of the same messages, byte for byte.
+// A bag is equal to what rosbag's library writes for the same messages, byte for byte.
 #include <sensor_msgs/CameraInfo.h>
 #include <tf2_msgs/TFMessage.h>
 #include <boost/make_shared.hpp>
@@ -11,7 +11,7 @@ namespace {
 
 using test::read_text;
 
-/// The same to both.
+/// The same messages to both.
 class TwoBags {
  public:
   TwoBags(const std::string& ours, const std::string& theirs, const std::string& compression)
@@ -69,7 +69,7 @@ TEST_P(WriterTest, IsEqualToRosbag) {
   sensor_msgs::CameraInfo info;
   tf2_msgs::TFMessage tf;
   for (std::uint32_t i = 0; i < 6000; ++i) {
-    // Times go back and come twice.
+    // Times go back and repeat.
     const ::ros::Time time(1'700'000'000 + i / 50 - (i % 7 == 0 ? 3 : 0), i % 50 / 2 * 20'000'000);
     info.header.seq = i;
     info.distortion_model = std::string(i % 13, 'x');

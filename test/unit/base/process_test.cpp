@@ -14,7 +14,7 @@
 namespace trk_bridge::base {
 namespace {
 
-/// The exit code of a process that does this, or minus the signal that ended it.
+/// The exit code of a process that runs this, or minus the signal that ended it.
 int outcome(const std::function<int()>& act) {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(act());

@@ -76,7 +76,7 @@ TEST(Sequence, ALateRecordWasNotLost) {
   EXPECT_EQ(sequence.judge(11), Order::late);
   EXPECT_EQ(sequence.counts().lost, 1u);
   EXPECT_EQ(sequence.judge(11), Order::duplicate) << "the late one a second time";
-  EXPECT_EQ(sequence.judge(10), Order::duplicate) << "an older one that came in its turn";
+  EXPECT_EQ(sequence.judge(10), Order::duplicate) << "an older one that arrived in order";
   EXPECT_EQ(sequence.judge(12), Order::late);
   EXPECT_EQ(sequence.counts().lost, 0u);
   EXPECT_EQ(sequence.counts().late, 2u);
@@ -99,7 +99,7 @@ TEST(Sequence, BackByASecondIsLateAndMoreIsARestart) {
   EXPECT_EQ(sequence.judge(949), Order::restarted);
   EXPECT_EQ(sequence.counts().restarts, 1u);
   EXPECT_EQ(sequence.counts().lost, 0u);
-  EXPECT_EQ(sequence.judge(950), Order::next) << "counting goes on from where it restarted";
+  EXPECT_EQ(sequence.judge(950), Order::next) << "counting continues from the restart";
 }
 
 TEST(Sequence, AheadByAMinuteIsLossAndMoreIsARestart) {
@@ -170,7 +170,7 @@ TEST(Sequence, RemembersItsWindow) {
   EXPECT_EQ(sequence.counts().lost, 998u);
   EXPECT_EQ(sequence.judge(1000 - Sequence::window), Order::duplicate);
   EXPECT_EQ(sequence.judge(1000 - Sequence::window - 1), Order::late);
-  EXPECT_EQ(sequence.counts().lost, 998u) << "further back it cannot be told whether it came before";
+  EXPECT_EQ(sequence.counts().lost, 998u) << "further back it is not known whether it has arrived before";
 }
 
 TEST(Sequence, AJumpOfTheFullWindowKeepsTheRecordBefore) {
@@ -198,7 +198,7 @@ TEST(Sequence, CountersOfAnyWidthWrap) {
   }
 }
 
-/// Judges as records with contents of their own are judged: equal counters alone are no equal records.
+/// Judges records with different contents: equal counters alone do not mean equal records.
 class Automatic : public ::testing::Test {
  protected:
   Order judge(std::uint64_t counter) { return sequence.judge(counter, ++fingerprint_); }

@@ -29,7 +29,7 @@ TEST(Days, EndWhereRosDoes) {
   }
   EXPECT_THAT(parse_date("2023-02-29").error(), AllOf(HasSubstr("\"2023-02-29\""), HasSubstr("YYYY-MM-DD")));
   EXPECT_EQ(day_from_text("2024-02-29"), 1709164800) << "date -u -d 2024-02-29 +%s";
-  EXPECT_TRUE(day_from_text("9999-12-31")) << "beyond ROS, the calendar goes on";
+  EXPECT_TRUE(day_from_text("9999-12-31")) << "the calendar continues beyond the range of ROS";
 }
 
 TEST(Moments, AreReadToTheNanosecond) {

@@ -1,4 +1,4 @@
-// What runs for every sample allocates nothing.
+// The code that runs for every sample allocates nothing.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -18,7 +18,7 @@ namespace {
 
 using test::allocations_of;
 
-/// Takes everything and keeps nothing.
+/// Accepts everything and keeps nothing.
 class NoSink final : public transport::Sink {
  public:
   std::string name() const override { return "nothing"; }
@@ -60,7 +60,7 @@ TEST(Allocation, DoesNotHappenForSamples) {
       sent.chip_width += 1e-3 * i;
       sample.record = sent;
       (void)pipeline.process(sample, i);
-      // Mild lenses for plumb_bob and strong ones for rational_polynomial; what comes twice; what is no camera.
+      // Mild lenses for plumb_bob and strong ones for rational_polynomial; duplicates; values that are no camera.
       params.k1 = -1e-5 * i;
       params.counter = static_cast<std::uint64_t>(i + i % 3);
       params.euler.pan = i % 7 == 6 ? std::numeric_limits<double>::infinity() : i;
@@ -100,7 +100,7 @@ TEST(Allocation, DoesNotHappenForSetsOfTopics) {
   const auto write_one = [&](int i) {
     auto sent = constants();
     sent.chip_width += 1e-3 * (i / 4);
-    // Some that leave no picture, and some poses that are no camera.
+    // Some lenses without a picture, and some poses that are no camera.
     if (i % 20 == 19) sent.image_width = 0;
     input.use(sent);
     params.id = static_cast<std::uint32_t>(i % 3);

@@ -64,7 +64,7 @@ TEST_F(CameraHistoryTest, LeadExtrapolatesAndStops) {
   EXPECT_NEAR(x_at(900 * ms, 10 * ms), 1.5, 1e-12);
 }
 
-/// Two times 1 us apart would make a thousand metres a second of a millimetre of noise.
+/// With two times 1 us apart, a millimetre of noise would become a speed of 1000 m/s.
 TEST_F(CameraHistoryTest, LeadDoesNotAmplifyTheNoiseOfCloseTimes) {
   add(0, 0);
   add(20 * ms, 1);
@@ -95,7 +95,7 @@ TEST_F(CameraHistoryTest, KeepsTheNewestAndDropsTheOldest) {
   EXPECT_EQ(x_at(2 * kept * ms), 2 * kept);
   EXPECT_NEAR(x_at((3 * kept - 1) * ms - ms / 2), 3 * kept - 1.5, 1e-9);
   add(ms, 5);
-  EXPECT_EQ(x_at(2 * kept * ms), 2 * kept) << "one that is too old costs none that is kept";
+  EXPECT_EQ(x_at(2 * kept * ms), 2 * kept) << "one that is too old replaces none that is kept";
 }
 
 TEST_F(CameraHistoryTest, EachPartHasItsOwnTime) {
@@ -114,7 +114,7 @@ TEST_F(CameraHistoryTest, EachPartHasItsOwnTime) {
   EXPECT_EQ(found->margins.lens, 10 * ms);
 }
 
-/// A CameraInfo a frame, and poses five times as often, each with the CameraInfo before it.
+/// One CameraInfo per frame, and poses five times as often, each with the CameraInfo before it.
 TEST_F(CameraHistoryTest, ALensWithItsOwnTimesIsInterpolatedByThem) {
   for (int i = 0; i <= 20; ++i) {
     const std::int64_t frame = i / 5;
@@ -125,7 +125,7 @@ TEST_F(CameraHistoryTest, ALensWithItsOwnTimesIsInterpolatedByThem) {
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->camera.lens.image_distance, 11.25, 1e-12);
   EXPECT_EQ(found->margins.position, 110 * ms);
-  EXPECT_EQ(found->margins.lens, 110 * ms) << "a lens that stands is no sample that is missing";
+  EXPECT_EQ(found->margins.lens, 110 * ms) << "a lens that does not move is no missing sample";
 }
 
 TEST_F(CameraHistoryTest, ALensThatChangesWithoutANewTimeGetsThatOfThePose) {

@@ -18,7 +18,7 @@ CameraInfo info_of(const std::string& model, std::vector<double> d) {
   return info;
 }
 
-/// 200 pixels a millimetre; the image's size in it must not count.
+/// 200 pixels per millimetre; the image size in it must be ignored.
 wire::CameraConstants chip() { return {0, 720, 576, 0, 0, 0, 0, 9.6, 5.4, 9.6, 5.4}; }
 
 void expect_fault(const CameraInfo& info, InfoReason reason) {

@@ -1,4 +1,4 @@
-// Which records of a camera are published: counters of every kind, and more than one sender.
+// Which records of a camera are published: with counters of every kind, and with more than one sender.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,8 +14,8 @@
 namespace trk_bridge::bridge {
 namespace {
 
-/// 250 fields at 50 Hz: `counter_of` gives a field's counter. Every field has a pose of its own, x. Gives those
-/// published, in their order.
+/// 250 fields at 50 Hz: `counter_of` returns a field's counter. Every field has a different pose, x. Returns the
+/// published ones, in their order.
 std::vector<int> published_of(const std::function<std::uint64_t(int)>& counter_of, const std::vector<int>& fields,
                               CameraPipeline& pipeline) {
   std::vector<int> published;
@@ -64,7 +64,7 @@ TEST(Senders, NoCounterStopsASenderWithNewValues) {
     EXPECT_EQ(std::adjacent_find(published.begin(), published.end()), published.end()) << c.name;
     RecordProperty(c.name, static_cast<int>(published.size()));
 
-    // The same with a camera that stands still: only how many are published can be seen.
+    // The same with a camera that stands still: only their number can be compared.
     CameraPipeline still(CameraOptions{}, 50);
     std::size_t count_still = 0;
     for (int i = 0; i < 250; ++i) {
@@ -93,7 +93,7 @@ TEST(Senders, EveryFieldOnceIfEverySecondIsDuplicated) {
 
 TEST(Senders, LateFieldsAreNeverPublishedOutOfOrder) {
   for (int by = 1; by <= 8; ++by) {
-    // Every tenth field comes `by` places later; then one field before `by` others.
+    // Every tenth field arrives `by` places later; then one field arrives before `by` others.
     auto one_late = all_fields();
     for (auto i = one_late.begin(); one_late.end() - i > 10; i += 10) std::rotate(i, i + 1, i + 1 + by);
     auto one_early = all_fields();
@@ -143,7 +143,7 @@ TEST(Senders, OnlyTheFirstSenderIsFollowedUntilItIsSilent) {
   EXPECT_EQ(statistics.silent_sender.number, 1000u);
   EXPECT_EQ(statistics.sender.number, 2000u);
   EXPECT_EQ(statistics.sequence.lost + statistics.sequence.restarts, 0u) << "its counter is its own";
-  EXPECT_FALSE(pipeline.process(sample_from(1000, 5000, now), now).pose) << "it comes back";
+  EXPECT_FALSE(pipeline.process(sample_from(1000, 5000, now), now).pose) << "it is received again";
 }
 
 TEST(Senders, ForgedRecordsOfAnotherPortAreIgnoredAndOfTheSameCostLittle) {
@@ -156,7 +156,7 @@ TEST(Senders, ForgedRecordsOfAnotherPortAreIgnoredAndOfTheSameCostLittle) {
       if (i % 25 == 10 && pipeline.process(sample_from(port, i + 49, now + 1), now + 1).pose) ++forged;
     }
     EXPECT_EQ(good, 260) << port;
-    // From the very same port nothing can tell them apart.
+    // Senders with the same port cannot be distinguished.
     if (port != 1000) {
       EXPECT_EQ(forged, 0);
     }
@@ -180,8 +180,8 @@ TEST(Senders, ASenderOfInvalidCamerasCannotReplaceOthers) {
   auto bad = sample_from(2000, 1, 0);
   std::get<wire::CameraParams>(bad.record).euler.pan = std::nan("");
   EXPECT_FALSE(pipeline.process(bad, 0).pose);
-  EXPECT_TRUE(pipeline.process(sample_from(1000, 1, 1), 1).pose) << "it does not hold the camera";
-  // A holder that sends nothing but such records is silent.
+  EXPECT_TRUE(pipeline.process(sample_from(1000, 1, 1), 1).pose) << "it is not the camera's sender";
+  // The camera's sender counts as silent if it sends only such records.
   bad.sender.number = 1000;
   for (std::int64_t now = 2; now < second; now += field) EXPECT_FALSE(pipeline.process(bad, now).pose);
   EXPECT_TRUE(pipeline.process(sample_from(2000, 1, second), second).pose);

@@ -1,4 +1,4 @@
-// What the stamps of a camera's pipeline are made of.
+// How the stamps of a camera's pipeline are calculated.
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -23,7 +23,7 @@ CameraOptions stamped_by(StampMode stamp) {
   return options;
 }
 
-/// Stamps of the fields from `from` on, less their number of fields since today.
+/// Stamps of the fields from `from` on, minus their number of fields since midnight.
 std::vector<std::int64_t> feed(CameraPipeline& pipeline, std::uint64_t from, std::uint64_t to) {
   std::vector<std::int64_t> offsets;
   for (std::uint64_t n = from; n < to; ++n) {
@@ -57,7 +57,7 @@ TEST(CameraPipeline, StampsByCounterHaveItsRhythmMinusTheDelay) {
   CameraPipeline by_arrival(stamped_by(StampMode::arrival), 50);
   EXPECT_EQ(width(feed(by_arrival, 0, 1000)), 3'000'000);
   EXPECT_EQ(by_arrival.statistics().stamp_state, StampState::arrival);
-  EXPECT_NEAR(by_arrival.statistics().rhythm.interval, field, 200) << "known all the same";
+  EXPECT_NEAR(by_arrival.statistics().rhythm.interval, field, 200) << "known nevertheless";
 }
 
 TEST(CameraPipeline, StampsAreArrivalsIfTheCounterDoesNotCount) {

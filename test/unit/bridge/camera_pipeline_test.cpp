@@ -287,7 +287,7 @@ TEST(CameraPipeline, WithoutACounterEveryRecordIsNew) {
   EXPECT_EQ(statistics.sequence.duplicates, 0u);
   EXPECT_EQ(statistics.without_counter, 3u);
 
-  // A counter that comes after all is judged as the first one.
+  // The first counter is judged as the first one, also if it is received later.
   EXPECT_TRUE(pipeline.process(sample(params(7), today + 3 * field), 0).pose);
   EXPECT_FALSE(pipeline.process(sample(params(7), today + 4 * field), 0).pose);
   EXPECT_EQ(statistics.sequence.accepted, 4u);
@@ -304,7 +304,7 @@ TEST(CameraPipeline, WithoutALensOnlyThePoseIsPublished) {
   s.has_lens = false;
   s.encoders.zoom = 74565;
   const auto made = pipeline.process(s, 0);
-  ASSERT_TRUE(made.encoders) << "counts go out without a lens, too";
+  ASSERT_TRUE(made.encoders) << "counts are published also without a lens";
   EXPECT_EQ(made.encoders->counts, (transport::LensEncoders{74565, {}, {}}));
   ASSERT_TRUE(made.pose);
   EXPECT_EQ(made.pose->translation(), Eigen::Vector3d(1, 2, 3));
@@ -342,7 +342,8 @@ TEST(CameraPipeline, KeepsTheEncodingAndSenderOfTheLastNewRecord) {
   s.origin = "ASCII";
   s.sender.number = 50124;
   (void)pipeline.process(s, 0);
-  EXPECT_STREQ(pipeline.statistics().encoding, "binary identified_lp64, layout guessed") << "a duplicate came later";
+  EXPECT_STREQ(pipeline.statistics().encoding, "binary identified_lp64, layout guessed")
+      << "a duplicate was received later";
   EXPECT_EQ(pipeline.statistics().sender.number, 50123u);
 }
 

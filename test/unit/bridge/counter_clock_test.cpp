@@ -24,7 +24,7 @@ struct Stamped {
   double time() const { return sample.sampled / second; }
 };
 
-/// Sums over samples: the variances of arrivals and stamps, each less its mean.
+/// Sums over samples, for the variances of arrivals and stamps.
 class Spread {
  public:
   void add(const std::vector<Stamped>& stamped, double from, double to) {
@@ -150,7 +150,7 @@ TEST(CounterClock, StampsAreArrivalsUntilTheRhythmIsKnownAndThenChangeWithoutASt
         if (s.time() > 2.1) {
           EXPECT_TRUE(s.learned) << text_of(signal);
         }
-        // How early it is for its arrival grows from 0 to its end, and never by more than the arrivals jump themselves.
+        // The difference from the arrival grows from 0 to its end, and never by more than the jump of the arrivals.
         if (s.time() > 2 && s.time() < 6) {
           EXPECT_LE(std::abs(s.error() - before), 12 * jitter) << text_of(signal) << " at " << s.time();
         }
@@ -181,7 +181,7 @@ TEST(CounterClock, AStallThatEndsInABurstMovesStampsByATenthOfTheJitterAtMost) {
             for (const Stamped& s : replay.stamped) {
               const auto other = of_counter.find(s.sample.counter);
               if (other == of_counter.end()) continue;
-              // What came too early for its stamp has its arrival.
+              // A sample that arrives before its stamp is stamped with its arrival.
               if (s.stamp == s.sample.arrival || other->second->stamp == other->second->sample.arrival) continue;
               worst = std::max(worst, std::abs(s.error() - other->second->error()));
             }
@@ -271,7 +271,7 @@ TEST(CounterClock, ACounterThatJumpsContinues) {
   }
 }
 
-/// After a minute at their own rate the signals go on at `to`.
+/// After a minute at their rate the signals continue at `to`.
 void expect_rate_is_learned(double to, double within) {
   for_all_signals(120, [to, within](const std::vector<Signal>& signals) {
     if (std::abs(to / signals[0].rate - 1) < 1e-4) return;

@@ -27,10 +27,10 @@ inline std::string name_of(Jitter jitter) {
   return "";
 }
 
-/// One that was delivered. Times in ns.
+/// A delivered sample. Times in ns.
 struct Delivered {
   std::uint64_t counter = 0;
-  double sampled = 0;  ///< since the signal's begin
+  double sampled = 0;  ///< since the start of the signal
   std::int64_t arrival = 0;
 };
 
@@ -42,20 +42,20 @@ struct Signal {
   double deviation = 2e6;  ///< ns, standard
   double ppm = 100;        ///< by which a count takes longer
   double loss = 0.01, duplicates = 0.01;
-  /// Of the n-th sample: its counter, its time in ns, and its delay besides jitter.
+  /// Of the n-th sample: its counter, its time in ns, and its delay in addition to jitter.
   std::function<std::uint64_t(std::uint64_t)> counter = [](std::uint64_t n) { return n; };
   std::function<double(std::uint64_t, double)> time = [](std::uint64_t n, double interval) {
     return static_cast<double>(n) * interval;
   };
   std::function<double(double)> delay = [](double) { return 0; };
-  /// What would arrive from `stall` on comes `stall_lasts` later in a burst. Seconds since the begin.
+  /// Samples that would arrive from `stall` on arrive `stall_lasts` later in a burst. Seconds since the start.
   double stall = -1, stall_lasts = 0;
 };
 
 inline constexpr double signal_delay = 30e6;  // ns, constant
 inline constexpr std::int64_t signal_begin = 1'700'000'000'000'000'000;
 
-/// Lost ones, duplicates and the order of arrival included. Jitter of 2 ms changes the order of some.
+/// With losses, duplicates and in order of arrival. Jitter of 2 ms changes the order of some.
 inline std::vector<Delivered> deliver(const Signal& signal) {
   std::mt19937_64 engine(signal.seed);
   std::normal_distribution<double> normal;
@@ -70,7 +70,7 @@ inline std::vector<Delivered> deliver(const Signal& signal) {
       case Jitter::exponential:
         return exponential(engine);
       case Jitter::mixed: {
-        // |normal|, and 5 % of that ten times as late.
+        // |normal|; 5 % are ten times as late.
         const double mean_square = 0.95 + 0.05 * 100, mean = std::sqrt(2 / M_PI) * (0.95 + 0.05 * 10);
         const double late = std::abs(normal(engine)) * (uniform(engine) < 0.05 ? 10 : 1);
         return late / std::sqrt(mean_square - mean * mean);

@@ -20,7 +20,7 @@ using testing::ElementsAre;
 
 constexpr std::int64_t ms = 1'000'000;
 
-/// What a destination has got, and in which threads.
+/// What a destination has received, and in which threads.
 class Inbox {
  public:
   Destination destination(const OutputTiming& timing = {}, bool is_paced = false) {
@@ -71,7 +71,7 @@ wire::CameraParams at(std::int64_t time, std::uint64_t counter, std::uint32_t id
   return params;
 }
 
-/// Samples of now, every 10 ms, until the condition is met.
+/// Samples with the current time, every 10 ms, until the condition is met.
 template <typename Condition>
 bool feed_until(Departures& departures, Condition&& condition, std::vector<std::uint32_t> ids = {0}) {
   for (std::uint64_t counter = 1; counter < 6000; ++counter) {
@@ -115,7 +115,7 @@ TEST(Departures, ADelayAppliesToParametersButNotToConstants) {
     const auto* params = std::get_if<wire::CameraParams>(&got[i].record);
     ASSERT_NE(params, nullptr) << "the same constants are not new";
     EXPECT_EQ(params->counter, i);
-    // What is sent is the camera of the time that it says, and that is never less than the delay ago.
+    // Each set contains the camera of its time, which is at least the delay ago.
     EXPECT_NEAR(params->euler.x, at(got[i].time, 0).euler.x, 2e-6);
     EXPECT_GE(got[i].at - got[i].time, 80 * ms);
     if (i > 1) {
@@ -137,7 +137,7 @@ TEST(Departures, ATimingCanBeChangedIfATimerSends) {
   for (std::size_t i = 1; i < got.size(); ++i) EXPECT_GT(got[i].time, got[i - 1].time);
   EXPECT_GE(got.back().at - got.back().time, 300 * ms);
   ASSERT_TRUE(departures.set_timing(1, delay(20 * ms)));
-  // A shorter one goes on from where the camera is then; a machine that is busy may be late.
+  // A shorter delay continues from the camera's current position; a busy machine may be late.
   ASSERT_TRUE(feed_until(departures, [&] {
     const auto last = paced.all().back();
     return last.at - last.time < 200 * ms;

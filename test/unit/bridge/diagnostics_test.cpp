@@ -195,7 +195,7 @@ TEST_F(Diagnostics, ACounterThatDoesNotCountIsNamed) {
   now.camera.sequence.state = base::CounterState::cycles;
   expect(Level::warn, "the counter restarts every few records");
   now.camera.sequence.state = base::CounterState::ignored;
-  EXPECT_EQ(status().level, Level::ok) << "as the parameter asks";
+  EXPECT_EQ(status().level, Level::ok) << "as the parameter says";
 }
 
 TEST_F(Diagnostics, AClockThatWentBackIsNamedOnce) {

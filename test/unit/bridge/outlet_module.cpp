@@ -1,4 +1,4 @@
-// As a nodelet's library: loaded, used, and unloaded while a sink does not answer.
+// Like a nodelet's library: loaded, used, and unloaded while a sink does not respond.
 #include <cerrno>
 #include <memory>
 #include <string>
@@ -37,7 +37,7 @@ class FifoSink final : public transport::Sink {
 
 using namespace trk_bridge;
 
-/// Writes so many records to a FIFO that takes less, and leaves it to itself. False where that is not what happened.
+/// Writes more records to a FIFO than it accepts, and abandons it. False if that did not happen.
 extern "C" bool leave_stuck(const char* fifo, int records) {
   transport::SinkEndpoint endpoint;
   endpoint.blocking = transport::Blocking::storage;

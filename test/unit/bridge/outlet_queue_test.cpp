@@ -52,7 +52,7 @@ TEST(OutletQueue, ConstantsOutliveLaterParameters) {
   OutletQueue queue(2, WhenFull::drop_oldest);
   EXPECT_EQ(queue.push(constants(720)), Pushed::queued);
   EXPECT_EQ(queue.push(params(1)), Pushed::queued);
-  EXPECT_EQ(queue.push(params(2)), Pushed::queued) << "constants are kept elsewhere, which makes room";
+  EXPECT_EQ(queue.push(params(2)), Pushed::queued) << "constants are kept elsewhere, so there is room";
   EXPECT_EQ(queue.push(params(3)), Pushed::made_room);
   EXPECT_EQ(queue.push(params(4)), Pushed::made_room);
   EXPECT_THAT(all_of(queue), ElementsAre(constants(720), params(3), params(4)));

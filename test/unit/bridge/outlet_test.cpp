@@ -27,8 +27,8 @@ using test::params;
 using test::SinkControl;
 using transport::Blocking;
 
-/// Opens controls when a test ends, also by a failure: an outlet that is destroyed waits for its sink. Declared after
-/// the outlets, it goes before them.
+/// Opens the sinks when a test ends, also by a failure, because the destructor of an outlet waits for its sink. Declare
+/// it after the outlets, so that it is destroyed before them.
 class OpensAtEnd {
  public:
   explicit OpensAtEnd(std::vector<SinkControl*> controls) : controls_(std::move(controls)) {}
@@ -42,7 +42,7 @@ class OpensAtEnd {
   const std::vector<SinkControl*> controls_;
 };
 
-/// Of a sink that blocks from its first write on: one record is with it, the others wait.
+/// Uses an outlet while its sink blocks in the first write: the sink has one record, the others are queued.
 template <typename Use>
 void with_blocked(SinkControl& control, Outlet& outlet, const Use& use) {
   outlet.write(constants());
@@ -70,14 +70,14 @@ TEST(Outlet, ABlockingSinkDoesNotSlowDownOthers) {
   const OpensAtEnd guard({&segment, &take});
   for (std::uint64_t counter = 1; counter <= sets; ++counter) {
     for (auto* outlet : {&to_segment, &to_take, &to_live}) outlet->write(params(counter));
-    ASSERT_EQ(live.count(), counter) << "at once, though the others wait";
+    ASSERT_EQ(live.count(), counter) << "at once, although the others wait";
   }
   EXPECT_EQ(segment.count() + take.count(), 0u);
   segment.open();
   take.open();
   EXPECT_TRUE(to_segment.close() && to_take.close());
   const auto taken = take.params();
-  EXPECT_EQ(taken.size(), sets) << "nothing of a recording is lost while the queue has room";
+  EXPECT_EQ(taken.size(), sets) << "no record of a recording is lost while the queue has room";
   for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_EQ(taken[i].counter, i + 1);
 }
 
@@ -151,7 +151,7 @@ TEST(Outlet, ARecordingThatCannotKeepUpEndsAndKeepsItsRecords) {
   ASSERT_TRUE(outlet.close());
   EXPECT_TRUE(control.is_closed());
   const auto written = control.params();
-  EXPECT_EQ(written.size(), counter - 2) << "all before the one that had no room, and none after it";
+  EXPECT_EQ(written.size(), counter - 2) << "all before the one that did not fit, and none after it";
   for (std::size_t i = 0; i < written.size(); ++i) EXPECT_EQ(written[i].counter, i + 1);
   EXPECT_EQ(outlet.queue()->drops, 2u);
   EXPECT_EQ(losses, 2u);
@@ -226,7 +226,7 @@ TEST(Outlet, OpeningIsRetried) {
   control.open();
   control.set_opening_error("take.trk: it exists");
   Outlet outlet(endpoint_of(control, Blocking::storage), {});
-  ASSERT_TRUE(control.was_tried(2)) << "though nothing is written";
+  ASSERT_TRUE(control.was_tried(2)) << "although nothing is written";
   EXPECT_EQ(outlet.state().cannot_open, "take.trk: it exists");
   EXPECT_FALSE(outlet.state().is_open);
   control.set_opening_error("");
@@ -237,14 +237,14 @@ TEST(Outlet, OpeningIsRetried) {
 TEST(Outlet, RefusedWritesAreCountedAndOpeningIsNotRetriedForEveryRecord) {
   SinkControl control;
   control.open();
-  control.set_opening_error("slot 7: nobody knows it");
+  control.set_opening_error("slot 7: unknown");
   control.set_fault(transport::SinkFault{transport::SinkReason::gone});
   Outlet outlet(endpoint_of(control, Blocking::attaching), {});
   ASSERT_TRUE(control.was_tried(1));
   for (std::uint64_t counter = 1; counter <= 50; ++counter) outlet.write(params(counter));
   ASSERT_TRUE(outlet.close());
   EXPECT_EQ(outlet.statistics().failed_sets, 50u);
-  EXPECT_EQ(outlet.state().cannot_open, "slot 7: nobody knows it") << "which says more than the fault of a write";
+  EXPECT_EQ(outlet.state().cannot_open, "slot 7: unknown") << "which is more precise than the fault of a write";
 }
 
 TEST(Outlet, WithMustOpenTheReasonIsThrown) {
@@ -257,13 +257,13 @@ TEST(Outlet, WithMustOpenTheReasonIsThrown) {
             "take.trk: it exists");
 }
 
-/// Of a sink that does not answer any more.
+/// With a sink that no longer responds.
 class StuckOutlet : public testing::Test {
  protected:
   ~StuckOutlet() override {
     control->open();
     control->permit_opening();
-    EXPECT_TRUE(control->closes()) << "what was left to itself goes on";
+    EXPECT_TRUE(control->closes()) << "an abandoned sink continues";
   }
   static std::chrono::nanoseconds time_of(const std::function<void()>& act) {
     const auto begin = std::chrono::steady_clock::now();
@@ -289,12 +289,12 @@ TEST_F(StuckOutlet, IsAbandonedAndReportsWhatIsMissing) {
     EXPECT_EQ(outlet.unwritten(), 8u);
     outlet.write(params(8));
     EXPECT_TRUE(outlet.close()) << "again";
-    EXPECT_EQ(losses, 0) << "nobody is called any more";
+    EXPECT_EQ(losses, 0) << "the listener is no longer called";
   }
   control->set_fault(transport::SinkFault{transport::SinkReason::system, {}, ENOSPC});
   control->open();
   ASSERT_TRUE(control->closes());
-  EXPECT_EQ(losses, 0) << "nobody is called any more";
+  EXPECT_EQ(losses, 0) << "the listener is no longer called";
 }
 
 TEST_F(StuckOutlet, ContinuesInTheBackgroundWhenItCan) {
@@ -422,7 +422,7 @@ TEST(Outlet, OptionsThatTheEndpointDoesNotSetHaveDefaults) {
   options.defaults.id = 5;
   const Outlet outlet(endpoint_of(control, Blocking::never, given), options);
   EXPECT_EQ(outlet.form().format, given.format);
-  EXPECT_TRUE(outlet.form().sends_id) << "that goes with the format";
+  EXPECT_TRUE(outlet.form().sends_id) << "it belongs to the format";
   EXPECT_EQ(outlet.form().id, 5u);
   EXPECT_EQ(outlet.url(), "test:control");
   EXPECT_EQ(outlet.name(), "control");

@@ -1,4 +1,4 @@
-// A sink that is left to itself does not run code that was unloaded.
+// An abandoned sink does not run unloaded code.
 #include <string>
 
 #include <dlfcn.h>
@@ -26,7 +26,7 @@ TEST(OutletUnload, AnAbandonedSinkContinuesWhenItsLibraryIsUnloaded) {
   auto* leave_stuck = reinterpret_cast<bool (*)(const char*, int)>(::dlsym(module, "leave_stuck"));
   ASSERT_TRUE(leave_stuck != nullptr && leave_stuck(fifo.c_str(), records));
   ASSERT_EQ(::dlclose(module), 0);
-  // Whoever reads it now gets everything, and then the end.
+  // A reader now gets everything, and then the end.
   ssize_t came = 0;
   pollfd watched{reader, POLLIN, 0};
   while (::poll(&watched, 1, static_cast<int>(std::chrono::milliseconds(deadline).count())) == 1) {

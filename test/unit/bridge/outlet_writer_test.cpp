@@ -59,7 +59,7 @@ TEST_F(OutletWriterTest, WithoutAFormatEveryNumberStays) {
   outlet.write(constants(-1, 3));
   EXPECT_THAT(control.records(), ElementsAre(constants(720, 3), odd, constants(-1, 3)));
   outlet.write(constants(720, 3));
-  EXPECT_EQ(control.records().size(), 4u) << "the receiver has others since";
+  EXPECT_EQ(control.records().size(), 4u) << "the receiver has received others since";
   EXPECT_THAT(losses, IsEmpty());
 }
 
@@ -79,7 +79,7 @@ TEST_F(OutletWriterTest, OneFeedIsRightForReceiversOfTwoFormats) {
   }
   ASSERT_EQ(control.params().size(), 1u);
   ASSERT_EQ(other.params().size(), 1u);
-  EXPECT_EQ(other.params()[0], set) << "already in its format: the very doubles";
+  EXPECT_EQ(other.params()[0], set) << "already in its format: identical doubles";
   const auto turned = control.params()[0];
   const auto sent_constants = control.constants()[0], plain_constants = other.constants()[0];
   EXPECT_EQ(turned.format,
@@ -88,11 +88,11 @@ TEST_F(OutletWriterTest, OneFeedIsRightForReceiversOfTwoFormats) {
   EXPECT_NEAR(turned.matrix[12], 1.5, 1e-12);
   EXPECT_NEAR(turned.matrix[13], 1.75, 1e-12);
   EXPECT_NEAR(turned.matrix[14], 2, 1e-12);
-  // Blanks are ignored: the angle is that of a chip that is larger by 720 / 700, for the same picture.
+  // Blanks are ignored: the angle is that of a chip larger by 720 / 700, for the same picture.
   EXPECT_NEAR(turned.fov, 2 * std::atan(8.8 * 720 / 700 / 2 / 42) * 180 / M_PI, 1e-9);
   EXPECT_NEAR(sent_constants.fake_chip_width, 8.8 * 720 / 700, 1e-12) << "adjusted aspect";
   EXPECT_NEAR(sent_constants.fake_chip_height, 6.6, 1e-12);
-  // Each receiver's constants and parameters are the same camera.
+  // Each receiver's constants and parameters describe the same camera.
   const auto first = camera::decode(turned, &sent_constants);
   const auto second = camera::decode(set, &plain_constants);
   ASSERT_TRUE(first && second);
@@ -165,7 +165,7 @@ TEST_F(OutletWriterTest, TheNumberOfIdsIsLimited) {
   ASSERT_EQ(losses.size(), 300 - OutletWriter::most_ids);
   EXPECT_EQ(std::get<OutletReason>(losses[0].cause), OutletReason::too_many_ids);
   outlet.write(constants(1920, 3));
-  EXPECT_EQ(control.constants().back().image_width, 1920) << "those that are known go on";
+  EXPECT_EQ(control.constants().back().image_width, 1920) << "known ids continue";
   outlet.write(params(1, 299));
   EXPECT_EQ(control.params().size(), 1u);
 }
@@ -191,7 +191,7 @@ TEST_F(OutletWriterTest, ConstantsThatCouldNotBeWrittenAreRetriedBeforeEverySet)
   outlet.write(constants());
   EXPECT_EQ(losses.size(), 1u);
   outlet.write(params(1));
-  EXPECT_EQ(losses.size(), 2u) << "the parameters alone: nothing is tried twice for one set";
+  EXPECT_EQ(losses.size(), 2u) << "only the parameters: a set is not tried twice";
   EXPECT_EQ(outlet.statistics().failed_sets, 1u);
   outlet.write(params(2));
   EXPECT_EQ(losses.size(), 4u);
@@ -211,7 +211,7 @@ TEST_F(OutletWriterTest, InvalidConstantsEndTheRetriesOfRefusedOnes) {
     auto outlet = writer(form);
     outlet.write(constants(720));
     outlet.write(params(1));
-    // As a file has it: it holds one set of constants.
+    // Like a file, which contains one set of constants.
     control.set_fault(SinkFault{SinkReason::constants_changed});
     outlet.write(constants(1920));
     outlet.write(params(2));

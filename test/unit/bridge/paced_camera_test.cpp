@@ -1,4 +1,4 @@
-// A camera in simulated time: what goes out is compared with where the camera was.
+// A camera in simulated time: what is sent is compared with the camera's true position.
 #include "bridge/paced_camera.h"
 
 #include <cmath>
@@ -22,7 +22,7 @@ constexpr double chip_width = 9.6;
 double seconds(std::int64_t time) { return static_cast<double>(time - start) / 1e9; }
 /// 60 degrees a second at most, +-20 degrees.
 double pan_at(std::int64_t time) { return 20 * std::sin(3 * seconds(time)); }
-/// mm, 8 to 32 and back in 4 s.
+/// In mm, from 8 to 32 and back in 4 s.
 double focal_length_at(std::int64_t time) { return 20 + 12 * std::sin(seconds(time) * 1.5707963); }
 
 wire::CameraParams record_at(std::int64_t time) {
@@ -38,7 +38,7 @@ struct Sample {
   std::int64_t time, arrival;  // both of the clock of start
   wire::CameraParams params;
 };
-/// `count` samples a `period` apart, each in the studio `latency` later.
+/// `count` samples with this `period`, each received `latency` later.
 std::vector<Sample> samples(int count, std::int64_t period = 20 * ms, std::int64_t latency = ms / 5,
                             const std::function<wire::CameraParams(std::int64_t)>& record = record_at) {
   std::vector<Sample> all;
@@ -58,7 +58,7 @@ struct Sent {
 
 constexpr std::int64_t steady(std::int64_t time) { return time - start + steady_start; }
 
-/// Plays samples in the order of their arrival.
+/// Replays samples in order of arrival.
 std::vector<Sent> play(PacedCamera& camera, const std::vector<Sample>& samples, std::size_t output = 0) {
   std::vector<Sent> sent;
   const auto take = [&](std::int64_t at) {
@@ -81,7 +81,7 @@ OutputTiming delayed(double ms_late) {
   return {{ns, ns, ns}, 0};
 }
 
-/// Of those that are sent later than a second after the start.
+/// Of the sets that are sent later than one second after the start.
 void expect_right(const std::vector<Sent>& sent, std::int64_t delay) {
   int checked = 0;
   for (const auto& one : sent) {
@@ -109,7 +109,7 @@ TEST(PacedCamera, PanAndZoomAreRightAtAnyDelayAndWithoutARate) {
   }
 }
 
-/// The number that is sent is an angle of view; its focal length is held against the one that the camera had.
+/// An angle of view is sent; its focal length is compared with the camera's.
 TEST(PacedCamera, AnAngleOfViewIsAsExactAsAFocalLength) {
   const auto as_angle = [](std::int64_t time) {
     auto params = record_at(time);
@@ -126,7 +126,7 @@ TEST(PacedCamera, AnAngleOfViewIsAsExactAsAFocalLength) {
 TEST(PacedCamera, TheAgeDoesNotDependOnThePhaseOfTheStart) {
   for (const double delay : {0.0, 6.0, 25.0}) {
     for (const std::int64_t latency : {ms / 10, 7 * ms + 123'456, 19 * ms}) {
-      // The samples' times are as late as they arrive, as those of a node beside the crane.
+      // The samples' times are their arrivals, as of a node without the crane's clock.
       auto all = samples(300);
       for (auto& sample : all) sample.time = (sample.arrival += latency) - ms / 10;
       PacedCamera camera(50, {delayed(delay)});
@@ -182,14 +182,14 @@ TEST(PacedCamera, OneLostSampleIsNotVisibleWithADelayOfAFieldOrMore) {
       if (sent[i].at < start + second) continue;
       EXPECT_NEAR(static_cast<double>(sent[i].at - sent[i - 1].at), 20e6, 0.3e6) << "none is missing";
       EXPECT_EQ(sent[i].params.counter, sent[i - 1].params.counter + 1);
-      EXPECT_NEAR(sent[i].params.euler.x - sent[i - 1].params.euler.x, 0.02, 0.0004) << "even steps";
+      EXPECT_NEAR(sent[i].params.euler.x - sent[i - 1].params.euler.x, 0.02, 0.0004) << "equal steps";
       // A chord over two fields instead of one: 20 degrees * 9 / s^2 * (0.04 s)^2 / 8.
       EXPECT_NEAR(sent[i].params.euler.pan, pan_at(sent[i].at - static_cast<std::int64_t>(delay * 1e6)), 0.037);
     }
   }
 }
 
-/// The sample after it arrives just before its departure, which it must not be early for from then on.
+/// The next sample arrives just before the departure; the departures after that must not be early.
 TEST(PacedCamera, AfterALostSampleWithoutADelayDeparturesKeepTheirRhythm) {
   auto all = samples(300);
   all.erase(all.begin() + 150);
@@ -214,7 +214,7 @@ TEST(PacedCamera, LateSamplesNeverMoveItBack) {
       EXPECT_GT(sent.size(), 350u);
       for (std::size_t i = 1; i < sent.size(); ++i) {
         EXPECT_GT(sent[i].time, sent[i - 1].time);
-        // x is the time; it goes on evenly, so that what is interpolated and extrapolated is right as well.
+        // x is the time; it increases linearly, so that interpolated and extrapolated values are right as well.
         EXPECT_NEAR(sent[i].params.euler.x, seconds(sent[i].time), 1e-6);
       }
     }
@@ -225,18 +225,18 @@ TEST(PacedCamera, LeadExtrapolatesWithoutSamplesAndStops) {
   for (const std::int64_t lead : {std::int64_t{0}, 15 * ms, 40 * ms}) {
     auto all = samples(100);
     const std::int64_t newest = all.back().time;
-    // What comes much later makes the time pass in which nothing came.
+    // A much later sample lets the time without samples pass.
     all.push_back({newest + 900 * ms, newest + 900 * ms, all.back().params});
     PacedCamera camera(50, {{{}, lead}});
     const auto sent = play(camera, all);
     EXPECT_EQ(sent.back().time, newest + lead);
     EXPECT_NEAR(sent.back().params.euler.x, seconds(newest + lead), 1e-6);
-    EXPECT_LT(sent.back().at, newest + 70 * ms) << "nothing is sent again and again";
+    EXPECT_LT(sent.back().at, newest + 70 * ms) << "nothing is sent repeatedly";
   }
 }
 
 TEST(PacedCamera, MarginAndHowOftenItWasNegative) {
-  // At a departure the newest sample is 0.2 ms + the wait behind old: of 20 ms of delay, 19.4 are left.
+  // At a departure the age of the newest sample is 0.2 ms plus the margin: of 20 ms of delay, 19.4 ms are left.
   PacedCamera enough(50, {delayed(20)});
   play(enough, samples(500));
   const auto& good = enough.statistics(0);
@@ -282,7 +282,7 @@ TEST(PacedCamera, AClockThatIsSetCostsLessThanASecond) {
     PacedCamera camera(50, {delayed(40)});
     std::vector<Sent> sent;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      // From the 100th on both the samples' times and the clock are others.
+      // From the 100th sample on, both the samples' times and the clock are different.
       const std::int64_t set = i < 100 ? 0 : step;
       while (camera.due() && *camera.due() <= steady(all[i].arrival)) {
         const std::int64_t now = *camera.due(), at = now - steady_start + start + set;
@@ -318,7 +318,8 @@ TEST(PacedCamera, AClockThatIsSetBackALittleIsWaitedFor) {
   for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GT(times[i], times[i - 1]);
 }
 
-/// A take's time code is of any day: a sample is as new as its arrival, and the times that are sent are the take's.
+/// A take's time code can be of any day: the age of a sample is counted from its arrival, and the take's times are
+/// sent.
 TEST(PacedCamera, TimesOfAnotherDayAreUsedRelatively) {
   PacedCamera camera(50, {delayed(30)});
   auto all = samples(200);
@@ -340,7 +341,7 @@ TEST(PacedCamera, WithoutTimesArrivalsAreUsed) {
   EXPECT_NEAR(sent.back().params.euler.x, seconds(sent.back().at - 30 * ms - ms / 5), 1e-6);
 }
 
-/// Without times of their own a late record and a duplicate look new; their counters say what they are.
+/// Without sample times a late record and a duplicate look new; they are recognised by their counters.
 TEST(PacedCamera, OldRecordsThatArriveLateAreNotTreatedAsNew) {
   PacedCamera camera(50, {delayed(6)});
   auto all = samples(300);

@@ -28,7 +28,7 @@ TEST(ParamsToTrk, ConstantsHaveTheIdOfTheirParams) {
   EXPECT_EQ(input.use(params(1, 7), 0).constants, constants(720, 7));
   EXPECT_FALSE(input.use(params(2, 7), 0).constants) << "given before";
   EXPECT_EQ(input.use(params(3, 8), 0).constants, constants(720, 8));
-  EXPECT_EQ(input.use(params(4, 7), 0).constants, constants(720, 7)) << "with the id, again";
+  EXPECT_EQ(input.use(params(4, 7), 0).constants, constants(720, 7)) << "again with the id";
 }
 
 TEST(ParamsToTrk, ChangedConstantsAreSentAgainUnchangedOnesAreNot) {

@@ -19,7 +19,7 @@ struct Run {
   std::vector<std::int64_t> arrivals, departures;
 
   double count() const { return static_cast<double>(departures.size()); }
-  /// ns from the newest arrival before each departure from `begin` (ns) on.
+  /// Age (ns) of the newest arrival at each departure from `begin` (ns) on.
   std::vector<double> ages(double begin) const {
     std::vector<double> ages;
     for (const auto departure : departures) {
@@ -55,7 +55,7 @@ Run run(PhaseLock& lock, std::vector<std::int64_t> arrivals) {
   return run;
 }
 
-/// `count` arrivals at this rate (Hz), each later by what `jitter` gives (ns).
+/// `count` arrivals at this rate (Hz), each delayed by a value of `jitter` (ns).
 std::vector<std::int64_t> arrivals_at(
     double rate, int count, const std::function<double()>& jitter = [] { return 0.0; }) {
   std::vector<std::int64_t> arrivals;
@@ -87,7 +87,7 @@ TEST(PhaseLock, WithoutARateItUsesThatOfTheSamples) {
   }
 }
 
-/// Every second sample, and the same one always; or two departures a sample.
+/// Every second sample, always with the same phase; or two departures per sample.
 TEST(PhaseLock, OneRateMayBeAMultipleOfTheOther) {
   PhaseLock half(50);
   const auto every_second = run(half, arrivals_at(100, 1000));
@@ -107,7 +107,7 @@ TEST(PhaseLock, RatesThatAreNotMultiplesAreIndependent) {
   EXPECT_NEAR(largest(done.intervals(1e9)), 20 * ms, 10);
 }
 
-/// Departures have the rhythm of the samples and not of their arrivals, just behind where most of them arrive.
+/// Departures have the period of the samples, not of their arrivals, just after most of the arrivals.
 TEST(PhaseLock, JitterBecomesAnEvenRhythmAfterTheSamples) {
   std::mt19937 random(7);
   std::normal_distribution<double> gauss(5 * ms, 1 * ms);
@@ -126,7 +126,7 @@ TEST(PhaseLock, JitterBecomesAnEvenRhythmAfterTheSamples) {
   }
 }
 
-/// A machine that is busy holds one of ten samples back by 4 ms; the others are not sent any older for that.
+/// A busy machine delays one of ten samples by 4 ms; the others are not sent later because of that.
 TEST(PhaseLock, RareDelaysDoNotDelayTheOthers) {
   std::mt19937 random(7);
   std::bernoulli_distribution is_held(0.1);
@@ -140,7 +140,7 @@ TEST(PhaseLock, RareDelaysDoNotDelayTheOthers) {
 TEST(PhaseLock, LossBurstsAndStallsDoNotMoveIt) {
   auto arrivals = arrivals_at(50, 1500);
   for (std::size_t i = 200; i < arrivals.size(); i += 100) {
-    // 150 ms nothing, and then all of it.
+    // Nothing for 150 ms, and then all of it.
     for (std::size_t k = 0; k < 8; ++k) arrivals[i + k] = arrivals[i + 7] + static_cast<std::int64_t>(k) * 20'000;
     arrivals[i + 40] = arrivals[i + 41];
   }

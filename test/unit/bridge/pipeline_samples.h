@@ -1,4 +1,4 @@
-// Samples as a CameraPipeline gets them.
+// Samples for a CameraPipeline.
 #pragma once
 
 #include <cstdint>

@@ -38,7 +38,7 @@ TEST(Stamper, StrictlyIncreasesIfTheClockStopsOrStepsBack) {
     }
     stamps.push_back(*stamp);
   }
-  // Once the clock has caught up, stamps are the arrivals again.
+  // When the clock has caught up, stamps are the arrivals again.
   EXPECT_EQ(stamps.back(), today + second);
   EXPECT_EQ(stamper.ahead(), 0);
   EXPECT_EQ(stamper.held(), 5u);
@@ -68,7 +68,7 @@ TEST(Stamper, RefusesTimesOutsideOfRosTimeAndContinues) {
   Stamper stamper(milliseconds(5));
   EXPECT_FALSE(stamper.stamp(-1));
   EXPECT_FALSE(stamper.stamp(0));
-  EXPECT_FALSE(stamper.stamp(4'000'000)) << "before 1970 once the delay is taken off";
+  EXPECT_FALSE(stamper.stamp(4'000'000)) << "before 1970 after the delay is subtracted";
   EXPECT_FALSE(stamper.stamp(std::numeric_limits<std::int64_t>::max()));
   EXPECT_FALSE(stamper.stamp(std::numeric_limits<std::int64_t>::min()));
   EXPECT_EQ(stamper.stamp(today), today - 5'000'000);
@@ -85,7 +85,7 @@ TEST(Stamper, UnorderedIsArrivalMinusDelayWhateverCameBefore) {
   Stamper stamper(milliseconds(5));
   ASSERT_TRUE(stamper.stamp(today));
   EXPECT_EQ(stamper.unordered(today - second), today - second - 5'000'000);
-  EXPECT_EQ(stamper.unordered(4'000'000), 0) << "before 1970 once the delay is taken off";
+  EXPECT_EQ(stamper.unordered(4'000'000), 0) << "before 1970 after the delay is subtracted";
   EXPECT_EQ(stamper.unordered(std::numeric_limits<std::int64_t>::max()), 0);
   EXPECT_EQ(stamper.unordered(std::numeric_limits<std::int64_t>::min()), 0);
   EXPECT_EQ(stamper.held(), 0u);

@@ -145,9 +145,9 @@ TEST(TfToTrk, ALensIsUsedForThePoseWithItsStamp) {
   TfToTrk converter(options());
   for (int n = 0; n < 10; ++n) converter.use(info(2000 + 200 * n), field(n), 0);
   EXPECT_NEAR(converter.make(pose(), field(4), 0)->params.fov, 14, 1e-9);
-  EXPECT_NEAR(converter.make(pose(), field(6) + second / 200, 0)->params.fov, 16, 1e-9) << "the one before it";
+  EXPECT_NEAR(converter.make(pose(), field(6) + second / 200, 0)->params.fov, 16, 1e-9) << "the previous one";
   EXPECT_NEAR(converter.make(pose(), field(50), 0)->params.fov, 19, 1e-9);
-  EXPECT_NEAR(converter.make(pose(), field(-9), 0)->params.fov, 10, 1e-9) << "the oldest there is";
+  EXPECT_NEAR(converter.make(pose(), field(-9), 0)->params.fov, 10, 1e-9) << "the oldest one";
   EXPECT_NEAR(converter.make(pose(), static_stamp, 0)->params.fov, 19, 1e-9);
 }
 
@@ -158,11 +158,11 @@ TEST(TfToTrk, ExpectsALensAsLongAsTheyArriveWithThePoses) {
   EXPECT_FALSE(converter.expects_lens(field(0)));
   ASSERT_TRUE(converter.make(pose(), field(0), 0));
   EXPECT_TRUE(converter.expects_lens(field(1)));
-  ASSERT_TRUE(converter.make(pose(), field(1), 0)) << "it did not come";
-  EXPECT_FALSE(converter.expects_lens(field(2))) << "and is not waited for any more";
+  ASSERT_TRUE(converter.make(pose(), field(1), 0)) << "it was not received";
+  EXPECT_FALSE(converter.expects_lens(field(2))) << "and is no longer waited for";
   converter.use(info(), field(2), 0);
   ASSERT_TRUE(converter.make(pose(), field(2), 0));
-  EXPECT_TRUE(converter.expects_lens(field(3))) << "until they come in step again";
+  EXPECT_TRUE(converter.expects_lens(field(3))) << "until they are synchronous again";
 }
 
 TEST(TfToTrk, APoseThatIsNotFiniteIsDropped) {
@@ -187,7 +187,7 @@ TEST(TfToTrk, APoseThatWasDroppedIsNotNewAgain) {
   EXPECT_FALSE(converter.make(nowhere, field(1), 0));
   EXPECT_FALSE(converter.is_new(field(1)));
   EXPECT_TRUE(converter.is_new(field(2)));
-  EXPECT_EQ(converter.statistics().last_stamp, 0) << "of no set";
+  EXPECT_EQ(converter.statistics().last_stamp, 0) << "belongs to no set";
 }
 
 TEST(TfToTrk, FitsOnlyChangedCalibrations) {

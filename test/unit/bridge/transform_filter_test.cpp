@@ -12,7 +12,7 @@ constexpr std::int64_t second = 1'000'000'000;
 constexpr std::int64_t field = second / 50;
 constexpr std::int64_t start = 1'700'000'000 * second;
 
-/// The poses of `camera` in `studio`, over `rail`, as they come at 50 Hz.
+/// The poses of `camera` in `studio`, through `rail`, received at 50 Hz.
 class TransformFilterTest : public ::testing::Test {
  protected:
   using Verdict = TransformFilter::Verdict;
@@ -23,12 +23,12 @@ class TransformFilterTest : public ::testing::Test {
     const std::string parent = child == "camera" ? "rail" : "elsewhere";
     return filter.judge({parent, child, stamp, "/driver"}, start + now, now);
   }
-  /// One field later, a transform whose clock is off by `offset`.
+  /// One field later, a transform with a clock error of `offset`.
   Verdict next(std::int64_t offset = 0, const std::string& child = "camera") {
     now += field;
     return judge(child, start + now + offset);
   }
-  /// How many fields in a row pass before the filter does anything else than to refuse.
+  /// How many fields in a row the filter refuses.
   int refused_in_a_row(std::int64_t offset, const std::string& child = "camera", int most = 1000) {
     for (int count = 0; count < most; ++count) {
       if (next(offset, child) != Verdict::refuse) return count;
@@ -72,7 +72,7 @@ TEST_F(TransformFilterTest, AClockThatIsSetIsFollowedWithinASecond) {
 TEST_F(TransformFilterTest, AClockThatIsAheadFromTheStartIsFollowed) {
   EXPECT_LE(refused_in_a_row(3600 * second) * field, second / 2);
   for (int n = 0; n < 100; ++n) EXPECT_EQ(next(3600 * second), Verdict::use);
-  EXPECT_EQ(judge("camera", start + now + 7200 * second), Verdict::refuse) << "ahead of that clock, too";
+  EXPECT_EQ(judge("camera", start + now + 7200 * second), Verdict::refuse) << "also ahead of that clock";
 }
 
 TEST_F(TransformFilterTest, AllLinksOfOneClockStartOverOnce) {
@@ -95,7 +95,7 @@ TEST_F(TransformFilterTest, UnrelatedLinksDoNotRestart) {
   EXPECT_EQ(refused_in_a_row(-60 * second, "robot", 100), 100);
   EXPECT_EQ(filter.statistics().restarts, 0u);
   EXPECT_EQ(filter.statistics().refused, 0u);
-  // It takes the camera on.
+  // Now the camera is attached to it.
   now += field;
   EXPECT_EQ(filter.judge({"robot", "camera", start + now, "/driver"}, start + now, now), Verdict::use);
   EXPECT_EQ(next(-60 * second, "robot"), Verdict::restart);

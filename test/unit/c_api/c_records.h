@@ -1,4 +1,4 @@
-// Records in the document's structures, and handles that are none.
+// Records in the document's structures, and invalid handles.
 #pragma once
 
 #include "trk_struct.h"

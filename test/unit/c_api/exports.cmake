@@ -1,4 +1,4 @@
-# What the library LIBRARY exports is what its headers declare, and it has a soname with a version.
+# Checks that the library LIBRARY exports exactly what its headers declare, and has a soname with a version.
 execute_process(COMMAND ${NM} -D --defined-only ${LIBRARY} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "[A-Za-z] [^\n]+" symbols "${symbols}")
 list(TRANSFORM symbols REPLACE "^. " "")

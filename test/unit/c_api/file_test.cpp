@@ -1,4 +1,4 @@
-// Transfer by file, and every misuse of it.
+// Transfer by file, and all its misuses.
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -78,7 +78,7 @@ TEST_F(File, only_the_malformed_line_is_lost) {
   ASSERT_EQ(trkFileOpenRead(name.c_str(), time_code, &c, &handle), trkOK);
   ASSERT_EQ(trkFileReadParams(handle, &p), trkOK);
   EXPECT_EQ(trkFileReadParams(handle, &p), trkInvalidVersion);
-  EXPECT_EQ(p.counter, 1U) << "left as it was";
+  EXPECT_EQ(p.counter, 1U) << "unchanged";
   ASSERT_EQ(trkFileReadParams(handle, &p), trkOK);
   EXPECT_EQ(p.counter, 3U);
   EXPECT_EQ(trkFileReadParams(handle, &p), trkUnavailable);

@@ -1,4 +1,4 @@
-// Transfer by shared memory, and every misuse of it.
+// Transfer by shared memory, and all its misuses.
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
@@ -57,13 +57,13 @@ TEST_F(Memory, passes_parameters_and_constants) {
   EXPECT_EQ(std::memcmp(&c, &constants_in_c, sizeof c), 0);
   EXPECT_EQ(trkMemReadConstants(reader, &c), trkUnavailable);
   ASSERT_EQ(trkMemWriteConstants(writer, &constants_in_c), trkOK);
-  EXPECT_EQ(trkMemReadConstants(reader, &c), trkOK) << "written again is new again";
+  EXPECT_EQ(trkMemReadConstants(reader, &c), trkOK) << "a set that is written again is new";
 }
 
 TEST_F(Memory, numbers_that_are_not_finite_are_neither_written_nor_read) {
   ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
   ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
-  // What another program does: the record and its counter, byte for byte, into a segment of 544 bytes.
+  // Like another program: the record and its counter, byte for byte, into a segment of 544 bytes.
   auto* const segment = static_cast<char*>(::shmat(slot.segment(), nullptr, 0));
   ASSERT_NE(segment, reinterpret_cast<char*>(-1));
   constexpr std::size_t counter_at = 12, params_at = 16, params_size = 200, transform_at = 8;
@@ -144,7 +144,7 @@ TEST_F(Memory, recreate_replaces_it_when_all_others_have_detached) {
   ASSERT_EQ(trkMemWriteParams(writer, &sent), trkOK);
   EXPECT_NE(slot.segment(), before);
   ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK);
-  EXPECT_EQ(trkMemReadConstants(reader, &c), trkOK) << "the contents came along";
+  EXPECT_EQ(trkMemReadConstants(reader, &c), trkOK) << "the contents are included";
 }
 
 std::size_t size_of(const FreeSlot& slot) {
@@ -226,7 +226,7 @@ TEST_F(Memory, misuse_gives_the_documents_codes) {
   EXPECT_EQ(trkMemWriteParams(stale, &p), trkInvalidHandle);
 }
 
-/// How a child of this process ends that runs `child`.
+/// The exit status of a child process that runs `child`.
 template <typename Child>
 int exit_status_of(Child&& child) {
   const pid_t process = ::fork();

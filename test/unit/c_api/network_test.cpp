@@ -1,4 +1,4 @@
-// Transfer by network, and every misuse of it.
+// Transfer by network, and all its misuses.
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -20,7 +20,7 @@ using trk_bridge::test::params_in_c;
 using trk_bridge::test::PlainSocket;
 using trk_bridge::test::ReservedPort;
 
-/// As trkNetOpenRead of the document.
+/// Like trkNetOpenRead of the document.
 trkError open_read(int port, trkHandle* handle) {
 #ifdef TRK_IDENTIFIED
   return trkNetOpenRead(port, handle, 1);
@@ -102,7 +102,7 @@ TEST_P(Net, jitter_is_buffered) {
   EXPECT_EQ(paced(), 12U) << "from the store";
   send({13, 14, 15});
   EXPECT_EQ(paced(2), 14U);
-  EXPECT_EQ(paced(2), 15U) << "16 has not come: the newest";
+  EXPECT_EQ(paced(2), 15U) << "16 has not arrived: the newest";
 }
 
 TEST_P(Net, a_delay_does_not_build_up) {
@@ -221,7 +221,7 @@ TEST_P(Net, the_last_constants_can_be_read_again) {
 
 #endif
 
-/// The binary datagram that parameters are sent as, with this in the environment.
+/// The binary datagram of parameters, with this in the environment.
 std::string binary_datagram(const char* layout) {
   if (layout != nullptr) ::setenv("TRK_LAYOUT", layout, 1);
   const PlainSocket receiver;

@@ -1,4 +1,5 @@
-// trkNetBufReadParams's ring against networks that lose, repeat, reorder and delay: random, but the same in every run.
+// trkNetBufReadParams's ring with networks that lose, repeat, reorder and delay datagrams: random, but the same in
+// every run.
 #include "c_api/params_ring.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 namespace trk_bridge::c_api {
 namespace {
 
-/// One datagram, as the test knows it: a sender that restarts begins another run.
+/// One datagram. A sender that restarts begins a new run.
 struct Set {
   int run = 0;
   std::uint64_t counter = 0;
@@ -32,7 +33,7 @@ wire::CameraParams params_of(const Set& set) {
   return p;
 }
 
-/// What goes wrong, as probabilities a datagram or a call.
+/// Probabilities of errors per datagram or call.
 struct Network {
   const char* name;
   double loss, twice, late, burst, restart;
@@ -43,7 +44,7 @@ constexpr Network networks[] = {
     {"bursts", 0, 0, 0, 0.3, 0}, {"restarts", 0, 0, 0, 0, 0.01},  {"everything", 0.05, 0.1, 0.1, 0.2, 0.01},
 };
 
-/// What arrives before each call of a reader, from a sender of one set a call.
+/// The arrivals before each call of a reader; the sender sends one set per call.
 std::vector<std::vector<Set>> arrivals_of(const Network& network, std::mt19937& random, std::size_t calls) {
   const auto happens = [&random](double probability) {
     return std::uniform_real_distribution<>(0, 1)(random) < probability;
@@ -53,7 +54,7 @@ std::vector<std::vector<Set>> arrivals_of(const Network& network, std::mt19937& 
   Set sent{0, 1000};
   std::size_t held_until = 0;  // bursts: nothing arrives before
   for (std::size_t call = 0; call < calls; ++call) {
-    // Going back by less could be a late datagram as well.
+    // A smaller step back could also be a late datagram.
     const bool is_far = sent.counter > base::Sequence::late_reach + 8;
     if (happens(network.restart) && delayed.empty() && is_far) sent = {sent.run + 1, 1};
     if (happens(network.burst)) held_until = call + std::uniform_int_distribution<std::size_t>(1, 3)(random);
@@ -74,7 +75,7 @@ std::vector<std::vector<Set>> arrivals_of(const Network& network, std::mt19937& 
   return arrivals;
 }
 
-/// The document's rules over sets in order of arrival, as the field's sources have them.
+/// The document's rules for sets in order of arrival, as in existing programs.
 class ArrivalOrderRing {
  public:
   void push(const Set& set) {
@@ -112,7 +113,7 @@ bool is_exact(const std::optional<Set>& before, const Set& given) {
   return before && before->run == given.run && given.counter == before->counter + passed;
 }
 
-/// Replays one sequence, checks every step, and gives how many were exact.
+/// Replays one sequence, checks every step, and returns how many were exact.
 int exact_steps(const std::vector<std::vector<Set>>& arrivals) {
   ParamsRing ring;
   std::set<Set> arrived, given;
@@ -128,7 +129,7 @@ int exact_steps(const std::vector<std::vector<Set>>& arrivals) {
     if (!popped) continue;
     const Set set{static_cast<int>(popped->focdist), popped->counter};
     EXPECT_TRUE(arrived.count(set));
-    EXPECT_TRUE(given.insert(set).second) << set.counter << " was given twice";
+    EXPECT_TRUE(given.insert(set).second) << set.counter << " was returned twice";
     const Set newest = *arrived.rbegin();
     if (last && last->run == newest.run) {
       EXPECT_EQ(set.run, last->run);
@@ -141,7 +142,7 @@ int exact_steps(const std::vector<std::vector<Set>>& arrivals) {
       }
       base = is_ruled && newest.counter >= wanted.counter ? wanted.counter : set.counter;
     } else {
-      EXPECT_TRUE(set == newest) << "a run begins with the newest";
+      EXPECT_TRUE(set == newest) << "a run starts with the newest";
       base = set.counter;
     }
     if (is_exact(last, set)) ++exact;

@@ -1,7 +1,7 @@
-# Installs to an empty place and builds a C program with what pkg-config says of it, as a user does.
+# Installs to an empty folder and builds a C program with the flags of pkg-config, like a user does.
 set(prefix ${BUILD}/pkg_config_test)
 
-# A second package.xml would hide the package from roslaunch: nothing is left behind.
+# Removes the installation: a second package.xml would hide the package from roslaunch.
 function(fail text)
   file(REMOVE_RECURSE ${prefix})
   message(FATAL_ERROR "${text}")

@@ -1,4 +1,4 @@
-// The structures as the field lays them out, and their text.
+// The memory layout of the structures, and their text.
 #include "trk_struct.h"
 
 #include <cstddef>
@@ -144,7 +144,7 @@ TEST(Struct, formats_are_words) {
   EXPECT_EQ(format,
             unsigned{trkEuler | trkFieldOfView | trkVertical | trkIgnoreBlank | trkKeepAspect | trkShiftInPixels});
   EXPECT_EQ(trkStringToFormat("euler upside_down", &format), 0);
-  EXPECT_TRUE(format & trkShiftInPixels) << "left as it was";
+  EXPECT_TRUE(format & trkShiftInPixels) << "unchanged";
 }
 
 }  // namespace

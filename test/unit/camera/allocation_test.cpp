@@ -1,4 +1,4 @@
-// What runs for every sample allocates nothing.
+// The code that runs for every sample allocates nothing.
 #include <gmock/gmock.h>
 
 #include "allocations.h"
@@ -42,7 +42,7 @@ TEST(Allocation, DoesNotHappenForCalibrations) {
   bool all_good = true;
   const std::uint64_t count = allocations_of([&] {
     for (int i = 0; i < 20; ++i) {
-      // Every second one is a new lens, mild ones for plumb_bob and strong ones for rational_polynomial.
+      // Every second sample has a new lens: mild ones for plumb_bob and strong ones for rational_polynomial.
       const Lens lens{8, {0.1, 0.1}, -1e-4 * (i / 2), -3e-6 * (i / 2), 0, 0};
       all_good = all_good && calibrator.calibrate(lens, constants) && distort(lens, {1, 1});
     }

@@ -17,7 +17,7 @@ using wire::CameraConstants;
 const CameraConstants hd{0, 1920, 1080, 0, 0, 0, 0, 9.59, 5.39, 0, 0};
 const double corner = std::hypot(9.59, 5.39) / 2;
 
-/// A lens with u = `at_corner` in the corner of the picture, `share` of it by k1.
+/// A lens with u = `at_corner` in the corner of the picture, of which `share` comes from k1.
 Lens lens_with(double at_corner, double share) {
   const double squared = corner * corner;
   const double excess = at_corner - 1;
@@ -33,7 +33,7 @@ double opencv_factor(const Distortion& distortion, double q) {
                                                         : polynomial / (1 + d[5] * s + d[6] * s * s + d[7] * s * s * s);
 }
 
-/// The worst distance along the longer pixels between where K and D put a point and where the lens shows it.
+/// The largest difference between the points of K and D and those of the lens, in units of the longer side of a pixel.
 double measured_residual(const Lens& lens, const CameraConstants& constants, const Distortion& distortion) {
   const Raster raster = raster_of(constants);
   const double reach = image_reach(lens, raster);
@@ -74,7 +74,7 @@ TEST(Calibrator, IsAsExactAsTheModelsCanBe) {
 }
 
 TEST(Calibrator, PlumbBobAlwaysIsAsExactAsPlumbBobCanBe) {
-  // What lens_fit.md has of it.
+  // The values of lens_fit.md.
   for (const auto& [at_corner, share, residual] : {std::tuple{0.925, 0.92, 0.035}, {1.257, 0.5, 0.724}}) {
     SCOPED_TRACE(at_corner);
     const Lens lens = lens_with(at_corner, share);
@@ -118,7 +118,7 @@ TEST(Calibrator, FitsEveryLensThatDoesNotFold) {
       ASSERT_TRUE(calibration) << describe(calibration.error());
       const Distortion& distortion = calibration->distortion;
       EXPECT_LE(measured_residual(lens, hd, distortion), 1.05 * distortion.residual + 1e-9);
-      // Near its fold a lens bends like a square root, which neither model can do.
+      // Near its fold a lens bends like a square root, which neither model can represent.
       if (monotonic_radius(lens) > 1.3 * corner && share >= 0 && share <= 2) {
         EXPECT_LE(distortion.residual, 0.02);
       }
@@ -308,7 +308,7 @@ TEST(FitLens, OfAnUndistortion) {
   EXPECT_NEAR(same->lens.k2, lens.k2, 1e-13);
   EXPECT_EQ(same->lens.center_shift, bare.center_shift);
   EXPECT_LE(same->residual, 1e-9);
-  // What k1 and k2 cannot follow is told in pixels: measured here along a radius.
+  // The error of k1 and k2 is reported in pixels: measured here along a radius.
   const Undistortion ratio{{4e-3, 0, 0}, {1e-2, 0, 0}};
   bare.center_shift.setZero();
   const auto near = fit_lens(bare, ratio, hd);

@@ -269,7 +269,7 @@ TEST(FieldOfView, MustBeAnAngleOrADistance) {
     params.fov = angle;
     expect_error(decode_lens(params, &sound_constants), CameraReason::bad_field_of_view);
   }
-  // Neither of these can be written as an angle that reads back.
+  // Neither of these can be written as an angle and read again.
   for (const double distance : {1e-300, 5e-324}) {
     expect_error(encode(Camera{Eigen::Isometry3d::Identity(), Lens{distance}}, wire::field_of_view, &sound_constants),
                  CameraReason::bad_field_of_view);
@@ -310,7 +310,7 @@ TEST(Constants, ThatAreInvalidAreRefused) {
       expect_error(decode_lens(params, &constants), CameraReason::bad_constants);
     }
     params.format = 0;
-    EXPECT_TRUE(decode_lens(params, &constants)) << "a format that needs no constants does not judge them";
+    EXPECT_TRUE(decode_lens(params, &constants)) << "a format that needs no constants does not check them";
   }
   EXPECT_TRUE(check(sound_constants));
 }
@@ -324,7 +324,7 @@ TEST(Constants, AreSentWithTheFakeChipOfTheFormat) {
   const CameraConstants keep = constants_for(adjust, wire::keep_aspect);
   EXPECT_THAT(keep.fake_chip_width, DoubleNear(6.4 * 720 / 700, 1e-14));
   EXPECT_THAT(keep.fake_chip_height, DoubleNear(4.8 * 720 / 700, 1e-14));
-  // As an ASCII record prints them.
+  // With the digits of an ASCII record.
   constants.fake_chip_width = 6.58286;
   constants.fake_chip_height = 4.8;
   EXPECT_EQ(constants_for(constants, 0), constants);

@@ -1,4 +1,4 @@
-// The worked cases, both ways.
+// The worked cases, in both directions.
 #include <gmock/gmock.h>
 
 #include <cmath>

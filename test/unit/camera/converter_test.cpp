@@ -17,7 +17,7 @@ using wire::CameraParams;
 
 const CameraConstants known{0, 720, 576, 10, 6, 2, 0, 9.59, 7.19, 0, 0};
 
-/// Numbers that no conversion would leave alone: angles outside of the canonical range, a negative zero.
+/// Numbers that every conversion would change: angles outside the canonical range, a negative zero.
 CameraParams awkward(std::uint32_t format) {
   CameraParams params;
   params.id = 12;
@@ -160,7 +160,7 @@ TEST(Converter, ConvertsIfTheConstantsChangeTheMeaning) {
 }
 
 TEST(Converter, KeepsWhatNeedsNoConversion) {
-  // Without constants and with some; numbers that are no camera.
+  // Without and with constants; numbers that are no camera.
   const std::uint32_t format = wire::field_of_view | wire::ignore_blank | wire::shift_in_pixels;
   CameraParams params = awkward(format);
   params.fov = 200;
@@ -214,7 +214,7 @@ TEST(Converter, FailsPartByPart) {
 }
 
 TEST(Converter, DoesNotChangeRecordsWithoutAFormat) {
-  // A format that no record could be made in, a matrix that is no rotation.
+  // A format that is not possible, a matrix that is no rotation.
   CameraParams params = awkward(0xFC00 | wire::field_of_view | wire::vertical | wire::diagonal);
   params.matrix[0] = 1.1;
   const Converter converter = converter_with(known, std::nullopt);

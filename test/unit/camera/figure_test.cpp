@@ -1,4 +1,4 @@
-// What is drawn of a camera, against OpenCV's projection and the worked cases.
+// The drawing of a camera, compared with OpenCV's projection and the worked cases.
 #include "camera/figure.h"
 
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ std::vector<Eigen::Vector2d> opencv_pixels(const ViewingLens& lens, const std::v
   return pixels;
 }
 
-/// Walks around the image's outer edges, a side at a time.
+/// Goes around the image's outer edges, side by side.
 std::vector<Eigen::Vector2d> border_pixels(const ViewingLens& lens) {
   const Eigen::Vector2d corners[] = {{0, 0}, {lens.width, 0}, {lens.width, lens.height}, {0, lens.height}, {0, 0}};
   std::vector<Eigen::Vector2d> pixels;
@@ -126,8 +126,8 @@ TEST(ImageBorder, IsWhatTheLensesOfTheWorkedCasesSee) {
   }
 }
 
-/// A lens whose image ends at a worked point has that point on its border: the inverse meets what the case says of the
-/// camera, as near as D comes to the case's polynomial.
+/// A lens whose image ends at a worked point has that point on its border: the inverse agrees with the case, as exactly
+/// as D approximates the case's polynomial.
 TEST(ImageBorder, HasThePointsOfTheWorkedCases) {
   constexpr double tolerance = 0.02;  // pixels
   int tested = 0;
@@ -193,8 +193,8 @@ TEST(ImageBorder, IsOffTheAxisWithCentreShiftAndBlanks) {
   const ViewingLens viewing{camera_matrix(lens, constants), {}, 1920, 1080};
   const auto border = image_border(viewing);
   ASSERT_TRUE(border);
-  // On the chip the image reaches from -4.7 to 4.7 mm, and 0.2 mm of blanks; the axis is at +0.5, -0.25 of its centre
-  // in the camera's x right, y up: x' = x + cx.
+  // On the chip the image extends from -4.7 to 4.7 mm, plus 0.2 mm of blanks; the axis is at (+0.5, -0.25) from its
+  // centre in the camera's axes, x right and y up: x' = x + cx.
   EXPECT_NEAR(border->corners[0].x(), (-4.7 + 0.5) / 10, 1e-12);
   EXPECT_NEAR(border->corners[2].x(), (4.7 + 0.2 + 0.5) / 10, 1e-12);
   EXPECT_NEAR(border->corners[0].y(), -(2.7 - 0.25) / 10, 1e-12);
@@ -248,7 +248,7 @@ TEST(ImageBorder, RefusesImagesThatAreTooWideOrEmpty) {
   auto beside = full_hd();
   beside.k[2] = 1e12;
   expect_refused(beside, CameraReason::too_wide);
-  // Wide only as the lens bends it: D is nearly r / 8 out there, the corner 82 degrees off the axis without D.
+  // Wide only because of the distortion: D is nearly r / 8 there, and without D the corner is 82 degrees off the axis.
   auto bent = full_hd(147, 147);
   EXPECT_TRUE(image_border(bent));
   bent.d = {0.125, 0, 0, 0, 0, 1, 0, 0};
@@ -296,9 +296,9 @@ TEST(ImageBorder, RefusesOnlyLensesThatOpenCvFoldsAsWell) {
     std::size_t rising = 1;
     while (rising < seen.size() && seen[rising].x() > seen[rising - 1].x() && seen[rising].x() < edge_of_reach)
       ++rising;
-    // Never there, turned back before it, or thrown beyond it by a pole.
+    // Never reached, turned back before it, or moved beyond it by a pole.
     EXPECT_TRUE(rising == seen.size() || seen[rising].x() < edge_of_reach || seen[rising].x() > 10 * edge_of_reach)
-        << "OpenCV gets there at " << outward[std::min(rising, seen.size() - 1)].x() << ", reach " << reach;
+        << "OpenCV reaches it at " << outward[std::min(rising, seen.size() - 1)].x() << ", reach " << reach;
   }
   EXPECT_GT(refused, 20);
 }

@@ -1,4 +1,4 @@
-// The published CameraInfo in the hands of image_geometry.
+// The published CameraInfo with image_geometry.
 #include <gmock/gmock.h>
 #include <image_geometry/pinhole_camera_model.h>
 

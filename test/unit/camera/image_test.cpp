@@ -49,7 +49,7 @@ TEST(Raster, ReachesTheCornerFarthestFromTheAxis) {
   const Raster raster = raster_of({0, 1000, 500, 0, 0, 0, 0, 10, 5, 0, 0});
   EXPECT_NEAR(image_reach(Lens{10, {1, -0.5}}, raster), std::hypot(6, 3), 1e-12);
   EXPECT_NEAR(image_reach(Lens{10}, raster), std::hypot(5, 2.5), 1e-12);
-  // Blanks are part of the image although no light falls there.
+  // Blanks are part of the image although they receive no light.
   const Raster blank = raster_of({0, 1200, 500, 200, 0, 0, 0, 10, 5, 0, 0});
   EXPECT_NEAR(image_reach(Lens{10}, blank), std::hypot(7, 2.5), 1e-12);
 }
@@ -104,9 +104,9 @@ TEST(Distortion, FindsTheFoldOfEveryPolynomial) {
   EXPECT_EQ(monotonic_radius(lens_with(0.1, 0)), infinity);
   EXPECT_EQ(monotonic_radius(lens_with(0.1, 0.1)), infinity);
   EXPECT_NEAR(monotonic_radius(lens_with(0, -1.0 / 80)), 2, 1e-12);
-  // 1 - 6 R + 5 R^2 falls between R = 1/5 and 1; the first is the one.
+  // 1 - 6 R + 5 R^2 is negative between R = 1/5 and 1; the fold is at the first.
   EXPECT_NEAR(monotonic_radius(lens_with(-2, 1)), std::sqrt(0.2), 1e-12);
-  // 1 + 4 R - 5 R^2 falls from R = 1 on.
+  // 1 + 4 R - 5 R^2 is negative from R = 1 on.
   EXPECT_NEAR(monotonic_radius(lens_with(4.0 / 3, -1)), 1, 1e-12);
   // A point of inflection is no fold: 1 - 2 R + R^2.
   EXPECT_EQ(monotonic_radius(lens_with(-2.0 / 3, 0.2)), infinity);

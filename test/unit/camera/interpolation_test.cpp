@@ -27,8 +27,8 @@ wire::CameraParams halfway(const wire::CameraParams& a, const wire::CameraParams
   return encode_relative(between, a.format).value();
 }
 
-/// Chip 10 mm wide: 90 degrees are 5 mm, and 2 atan(10 / 30) = 36.8699 degrees are 15 mm. Their middle, 10 mm, is seen
-/// under 2 atan(1/2) = 53.1301 degrees.
+/// Chip 10 mm wide: 90 degrees are 5 mm, and 2 atan(10 / 30) = 36.8699 degrees are 15 mm. Halfway, 10 mm are 2
+/// atan(1/2) = 53.1301 degrees.
 TEST(Interpolation, AnAngleOfViewIsLinearInFocalLengthWithoutConstants) {
   for (const std::uint32_t format : {std::uint32_t{wire::field_of_view}, wire::field_of_view | wire::vertical,
                                      wire::field_of_view | wire::diagonal | wire::ignore_blank | wire::keep_aspect}) {

@@ -1,4 +1,4 @@
-// The published K and D in the hands of OpenCV.
+// The published K and D with OpenCV.
 #include <gmock/gmock.h>
 
 #include <opencv2/calib3d.hpp>
@@ -37,7 +37,7 @@ TEST(OpenCv, PutsThePointsOfTheWorkedCasesWhereTheCameraSeesThem) {
       const Eigen::Vector2d pixel = opencv_pixel(*calibration, to_optical(camera->pose.inverse() * point.studio));
       const double error = (pixel - point.distorted).norm();
       EXPECT_LE(error, tolerance) << pixel.transpose() << " instead of " << point.distorted.transpose();
-      EXPECT_LE(error, calibration->distortion.residual + 1e-6) << "farther off than the residual says";
+      EXPECT_LE(error, calibration->distortion.residual + 1e-6) << "the error is larger than the residual";
       worst = std::max(worst, error);
     }
   }
@@ -45,7 +45,7 @@ TEST(OpenCv, PutsThePointsOfTheWorkedCasesWhereTheCameraSeesThem) {
 }
 
 TEST(OpenCv, MatchesTheFullImageWithinTheResidual) {
-  // A wide lens with all of the trimmings: pixels that are not square, uneven blanks, an axis off the centre.
+  // A wide lens with everything: pixels that are not square, different blanks, an axis off the centre.
   const wire::CameraConstants constants{0, 720, 576, 4, 12, 6, 0, 9.59, 7.19, 0, 0};
   const Lens lens{5.2, {0.31, -0.22}, 2e-3, 3e-5, 0, 0};
   Calibrator calibrator;

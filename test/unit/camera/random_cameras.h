@@ -1,4 +1,4 @@
-// Cameras and constants over the whole range of sensible ones, the same in every run.
+// Cameras and constants over the full range of sensible values, the same in every run.
 #pragma once
 
 #include <random>
@@ -43,7 +43,7 @@ class RandomCameras {
   std::mt19937_64 engine_{19980901};
 };
 
-/// Every mask that a record may be made in.
+/// Every possible format mask of a record.
 inline std::vector<std::uint32_t> meaningful_masks() {
   std::vector<std::uint32_t> masks;
   for (std::uint32_t mask = 0; mask <= wire::known_format_bits; ++mask) {

@@ -1,4 +1,4 @@
-// One motion as the field's test program wrote it in three formats.
+// One motion, written by the document's test program in three formats.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Pictures that are moved by a known distance.
+// Pictures moved by a known distance.
 #include "delay/picture_motion.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace trk_bridge::delay {
 namespace {
 
-/// A part of a large picture, so that new things come in at its edge.
+/// A part of a large picture, so that new content appears at its edge.
 cv::Mat part(double x, double y, cv::Size size) {
   static const cv::Mat large = [] {
     cv::Mat picture(900, 1600, CV_8UC1);

@@ -1,4 +1,4 @@
-// What is said of a measurement.
+// The text about a measurement.
 #include "delay/report.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The meter on video of the test card whose delay is known.
+// The meter with video of the test card whose delay is known.
 #include <functional>
 #include <random>
 #include <string>
@@ -23,7 +23,7 @@ using Motion = std::function<wire::CameraParams(double)>;
 constexpr double begin = 1e9;                // s: of all stamps
 constexpr double tenth_of_field = 0.1 / 50;  // s
 constexpr double tracking_rate = 50;         // Hz
-constexpr double before = 1.2, after = 0.8;  // s of tracking about the video
+constexpr double before = 1.2, after = 0.8;  // s of tracking before and after the video
 
 std::int64_t stamp(double seconds) {
   return static_cast<std::int64_t>(begin) * 1'000'000'000 + static_cast<std::int64_t>(seconds * 1e9);
@@ -38,7 +38,7 @@ void add_video(Meter& meter, test::CardVideo& video, double rate, double seconds
   }
 }
 
-/// In place of what tracking there was: samples stamped so that the video is later by `delay`.
+/// Replaces the tracking by samples that are stamped so that the video is later by `delay`.
 void add_tracking(Meter& meter, double delay, const Motion& motion, double jitter = 0) {
   std::mt19937 random(3);
   std::normal_distribution<double> gauss(0, jitter);
@@ -49,7 +49,7 @@ void add_tracking(Meter& meter, double delay, const Motion& motion, double jitte
   }
 }
 
-/// Noise in the picture, somebody before a fifth of it, and 2 ms of jitter in the stamps of tracking.
+/// With noise in the picture, a person in front of a fifth of it, and 2 ms of jitter in the stamps of tracking.
 class SpoiltVideo : public ::testing::TestWithParam<double> {};
 
 TEST_P(SpoiltVideo, GivesTheDelayToATenthOfAField) {
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Hz, SpoiltVideo, ::testing::Values(25.0, 50.0));
 
 class CleanVideo : public ::testing::Test {
  protected:
-  /// Against tracking as it should not be, of a video that is 41.3 ms late.
+  /// With faulty tracking, and a video that is 41.3 ms late.
   static Measurement against(const Motion& tracking) {
     static const Meter with_video = [] {
       Meter meter;

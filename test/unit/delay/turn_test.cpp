@@ -27,7 +27,7 @@ camera::Lens lens() {
   return lens;
 }
 
-/// Points all over the picture as two cameras see them.
+/// Points all over the picture, seen by two cameras.
 std::vector<MovedPoint> seen(const Eigen::Matrix3d& before, const camera::Lens& lens_before, const Eigen::Matrix3d& now,
                              const camera::Lens& lens_now) {
   std::vector<MovedPoint> points;
@@ -82,7 +82,7 @@ TEST(TurnOf, FollowsTheMajorityOfPoints) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 0.2);  // pixels
   for (auto& point : points) point.now += Eigen::Vector2d(noise(random), noise(random));
-  // A third, all alike.
+  // A third of them, all by the same amount.
   for (std::size_t i = 0; i < points.size() / 3; ++i) points[i].now = points[i].before + Eigen::Vector2d(-25, 3);
   const auto turn = turn_of(points, lens(), raster());
   ASSERT_TRUE(turn);

@@ -115,7 +115,7 @@ TEST(CraneMotion, JointsKeepTheLimitsOfTheUrdf) {
     }
     ASSERT_TRUE(joint.limits);
     EXPECT_LE(fastest, joint.limits->velocity) << joint.name;
-    EXPECT_GT(fastest, 0.02) << joint.name << " takes part in the shot";
+    EXPECT_GT(fastest, 0.02) << joint.name << " is used in the shot";
     if (joint.type == urdf::Joint::CONTINUOUS) continue;
     EXPECT_GE(least, joint.limits->lower) << joint.name;
     EXPECT_LE(most, joint.limits->upper) << joint.name;
@@ -133,7 +133,7 @@ TEST(CraneMotion, TheLevellingJointCanFollowTheArm) {
 TEST(CraneMotion, EverythingIsSmoothOverMarksAndTheRepeat) {
   const Crane crane;
   const auto second = [](auto a, auto b, auto c) { return (a - 2 * b + c) / (field * field); };
-  // A jump in position, direction or lens would show as an acceleration that no crane has.
+  // A jump in position, direction or lens would be an acceleration that is too high for a crane.
   for (int i = 0; i <= fields; ++i) {
     const Moment before = moment_at((i - 1) * field), now = moment_at(i * field), after = moment_at((i + 1) * field);
     const Eigen::Isometry3d a = crane.pose("camera", before), b = crane.pose("camera", now),

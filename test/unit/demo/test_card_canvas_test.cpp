@@ -27,7 +27,7 @@ class TestCardCanvas : public ::testing::Test {
 
 TEST_F(TestCardCanvas, DiscsHaveTheirCentroidWhereTheyWereDrawn) {
   for (int i = 0; i < 400; ++i) {
-    // Golden steps: all positions between pixels, and none twice.
+    // Steps of the golden ratio: all fractions of a pixel, and none twice.
     const Eigen::Vector2d center(100 + std::fmod(i * 0.6180339887, 1), 80 + std::fmod(i * 0.7548776662, 1));
     canvas_.clear();
     canvas_.disc(center, 7, bright);
@@ -56,7 +56,7 @@ TEST_F(TestCardCanvas, LinesHaveTheirMiddleWhereTheyWereDrawnAtAnyAngle) {
     }
     worst_mean = std::max(worst_mean, std::abs(sum) / static_cast<double>(found.size()));
   }
-  EXPECT_LT(worst_mean, 0.005) << "pixels of a whole line";
+  EXPECT_LT(worst_mean, 0.005) << "pixels over the complete line";
   EXPECT_LT(worst, 0.03) << "pixels of one crossing";
 }
 
@@ -98,7 +98,7 @@ TEST_F(TestCardCanvas, LabelsAvoidDrawnParts) {
   EXPECT_GT(cv::countNonZero(picture_ != before), 50) << "above the line";
   const cv::Mat labelled = picture_.clone();
   EXPECT_EQ(cv::countNonZero(picture_.rowRange(110, 240) != before.rowRange(110, 240)), 0) << "not on it";
-  // No place left on either side, above or below.
+  // Nothing remains visible on either side, above or below.
   cv::Mat full(240, 320, CV_8UC1, cv::Scalar(bright));
   Canvas(full, ground).label("4 8 2", {160, 110}, 7, ground);
   EXPECT_EQ(cv::countNonZero(full != cv::Mat(240, 320, CV_8UC1, cv::Scalar(bright))), 0);

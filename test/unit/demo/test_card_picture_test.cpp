@@ -1,5 +1,5 @@
-// What is drawn is where the camera sees it: points against the worked cases, lines against what OpenCV makes of the
-// fitted distortion.
+// The drawing is where the camera sees it: points compared with the worked cases, lines with OpenCV and the fitted
+// distortion.
 #include "demo/test_card_picture.h"
 
 #include <cmath>
@@ -23,7 +23,7 @@ using test::line_centers;
 
 constexpr double point_limit = 0.05;     // pixels between a point and where CameraInfo says
 constexpr double straight_limit = 0.1;   // pixels between a rectified line and a straight one
-constexpr double drawing_limit = 0.005;  // pixels of a disc's centroid that drawing itself may cost
+constexpr double drawing_limit = 0.005;  // pixels: error of a disc's centroid because of the drawing
 
 cv::Mat blank(const wire::CameraConstants& constants) {
   return cv::Mat(constants.image_height, constants.image_width, CV_8UC1);
@@ -53,7 +53,7 @@ TEST(TestCardPicture, HasThePointsOfTheWorkedCasesWhereTheCameraSeesThem) {
   RecordProperty("worst_point_pixels", std::to_string(worst));
 }
 
-/// A camera and a lens for the whole card.
+/// A camera and a lens that see the complete card.
 struct Sight {
   const char* name;
   double x, y, z, pan, tilt, roll;
@@ -61,7 +61,8 @@ struct Sight {
   int blank_left, blank_right, blank_top, blank_bottom;
 };
 
-// Barrel bends the corners of this chip by about 60 pixels (distorted to undistorted: k1 above 0), cushion by as many.
+// Barrel distortion moves the corners of this chip by about 60 pixels (distorted to undistorted: k1 above 0),
+// pincushion by the same.
 constexpr Sight sights[] = {
     {"Barrel", 0, 0, 1.7, 0, 0, 0, 9, 2e-3, 5e-6, 0, 0, 0, 0, 0, 0},
     {"BarrelFromAboveAslant", -3, 2, 4, -20, -18, 7, 8, 1.7e-3, 4e-6, 0.05, -0.03, 0, 0, 0, 0},
@@ -116,14 +117,14 @@ class TestCardThroughLens : public ::testing::TestWithParam<Sight> {
              .clone();
   }
 
-  /// Written out here: x right, y down, z forward.
+  /// Independent of the code under test: x right, y down, z forward.
   static Eigen::Isometry3d camera_T_optical() {
     Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
     transform.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
     return transform;
   }
 
-  /// By OpenCV; none behind the camera.
+  /// With OpenCV; none behind the camera.
   std::optional<Eigen::Vector2d> projected(const Eigen::Vector3d& studio, const cv::Mat& d) const {
     const Eigen::Vector3d p = optical_T_studio_ * studio;
     if (p.z() < 0.1) return std::nullopt;
@@ -132,7 +133,7 @@ class TestCardThroughLens : public ::testing::TestWithParam<Sight> {
     return Eigen::Vector2d(pixels[0].x, pixels[0].y);
   }
 
-  /// A line's two ends through a lens without distortion; none where it does not come before the camera.
+  /// A line's two ends through a lens without distortion; none if no part of it is in front of the camera.
   std::vector<Eigen::Vector2d> pinhole_line(Line line) const {
     const auto depth = [&](const Eigen::Vector3d& p) { return (optical_T_studio_ * p).z(); };
     if (depth(line.from) > depth(line.to)) std::swap(line.from, line.to);
@@ -163,7 +164,7 @@ TEST_P(TestCardThroughLens, PointsAreWhereCameraInfoSays) {
   double worst = 0, without_distortion = 0;
   for (const Point& point : figure_.points) {
     const auto expected = projected(point.place, d_), pinhole = projected(point.place, {});
-    // The fit is for the image; beyond it OpenCV's polynomial may bring anything back inside.
+    // The fit is valid in the image; outside, OpenCV's polynomial may map any point into it.
     const auto seen = view_->see(point.place);
     if (!expected || !seen || !test::is_inside(picture_, *seen, clear_radius)) continue;
     const auto found = disc_center(picture_, *expected);
@@ -174,7 +175,7 @@ TEST_P(TestCardThroughLens, PointsAreWhereCameraInfoSays) {
   }
   EXPECT_GE(compared, 4);
   EXPECT_LT(worst, point_limit) << "pixels";
-  EXPECT_GT(without_distortion, 10 * point_limit) << "pixels: else nothing was tested";
+  EXPECT_GT(without_distortion, 10 * point_limit) << "pixels: otherwise nothing was tested";
   RecordProperty("worst_point_pixels", std::to_string(worst));
   RecordProperty("points", compared);
 }
@@ -202,8 +203,8 @@ TEST_P(TestCardThroughLens, RectifiedLinesAreStraight) {
   }
   EXPECT_GE(compared, 4);
   EXPECT_LT(worst, straight_limit) << "pixels";
-  EXPECT_LT(worst_place, straight_limit) << "pixels beside where a pinhole sees the line";
-  EXPECT_GT(raw, 5 * straight_limit) << "pixels: else nothing was tested";
+  EXPECT_LT(worst_place, straight_limit) << "pixels from the line of a pinhole camera";
+  EXPECT_GT(raw, 5 * straight_limit) << "pixels: otherwise nothing was tested";
   RecordProperty("worst_line_pixels", std::to_string(worst));
   RecordProperty("worst_line_place_pixels", std::to_string(worst_place));
   RecordProperty("lines", compared);
@@ -224,7 +225,7 @@ TEST_P(TestCardThroughLens, ChordsFollowTheCurve) {
         const double part = std::clamp((*seen - bent[at]).dot(along) / along.squaredNorm(), 0.0, 1.0);
         return (bent[at] + part * along - *seen).norm();
       };
-      // Ends of the polyline may be exchanged with those of the line.
+      // The ends of the polyline may be in the opposite order.
       double nearest = distance(chord);
       for (std::size_t at = 0; at + 1 < bent.size() && nearest > 0.02; ++at) {
         if (distance(at) < nearest) nearest = distance(chord = at);

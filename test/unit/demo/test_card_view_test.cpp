@@ -1,4 +1,5 @@
-// What of the card is seen: everything before the camera that its lens brings into the picture, and nothing else.
+// The visible part of the card: everything in front of the camera that its lens maps into the picture, and nothing
+// else.
 #include "demo/test_card_view.h"
 
 #include <cmath>
@@ -35,7 +36,7 @@ TEST(TestCardView, SeesTheMiddleOfTheCardInTheMiddle) {
   ASSERT_TRUE(view);
   EXPECT_EQ(view->width(), 1920);
   EXPECT_EQ(view->height(), 1080);
-  // 12 m ahead an image distance of 9.6 mm makes 160 pixels of a metre.
+  // At 12 m and an image distance of 9.6 mm a metre is 160 pixels.
   const auto ahead = view->see(Eigen::Vector3d(0, 12, 1.5)), aside = view->see(Eigen::Vector3d(3, 12, 0.5));
   ASSERT_TRUE(ahead && aside);
   EXPECT_LT((*ahead - Eigen::Vector2d(959.5, 539.5)).norm(), 1e-9);
@@ -107,7 +108,7 @@ TEST(TestCardView, AnyCameraAndAnyLensMakesAPicture) {
     constants.image_width /= 4;
     constants.image_height /= 4;
     constants.blank_left = constants.blank_right = constants.blank_top = constants.blank_bottom = 0;
-    // From harmless to beyond all reason.
+    // From harmless to absurd values.
     const double absurd = std::pow(10.0, i % 10 - 1);
     camera.lens.k1 *= absurd;
     camera.lens.k2 *= absurd;
@@ -155,7 +156,7 @@ TEST(TestCardFigure, WallOrFloorMayBeOmitted) {
   EXPECT_THAT(figure_at(place).points, ::testing::Each(::testing::Field(
                                            &Point::place, ::testing::Truly([](const auto& p) { return p.z() == 0; }))));
   place.width = 0.3;
-  EXPECT_EQ(figure_at(place).points.size(), 13u) << "one line into the studio";
+  EXPECT_EQ(figure_at(place).points.size(), 13u) << "one line that goes into the studio";
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(Endpoints, SuggestsWhatWasProbablyMeant) {
               AllOf(Not(HasSubstr("did you mean")), HasSubstr("allowed are udp://HOST:PORT, ")));
 }
 
-/// A place of that scheme.
+/// A place that is valid for the scheme.
 std::string place_of(const transport::Scheme& scheme) {
   if (scheme.name == "shm") return "shm:7";
   if (scheme.name == "file") return "file:take.trk";
@@ -46,7 +46,7 @@ TEST(Endpoints, HelpNamesTheOptionsThatAreRead) {
         const std::string error = reads ? read_error(url) : write_error(url);
         EXPECT_THAT(error, Not(HasSubstr("unknown option"))) << url;
         EXPECT_FALSE(option.help.empty()) << url;
-        // Any text may name a file, a host or an interface.
+        // Any text may be the name of a file, a host or an interface.
         if (option.key == "lens" || option.key == "allow" || option.key == "interface") continue;
         EXPECT_THAT(error, HasSubstr("allowed are " + std::string(option.allowed))) << url;
       }
@@ -109,7 +109,7 @@ TEST(Endpoints, MalformedOptions) {
   EXPECT_THAT(write_error("udp://h:1?=1"), HasSubstr("KEY=VALUE"));
   EXPECT_THAT(write_error("udp://h:1?ttl=1&"), HasSubstr("KEY=VALUE"));
   EXPECT_THAT(write_error("udp://h:1?ttl=%3"), HasSubstr("hexadecimal"));
-  EXPECT_EQ(read_error("udp://:7000?"), "no error") << "no options behind ? is none";
+  EXPECT_EQ(read_error("udp://:7000?"), "no error") << "no options after ?";
 }
 
 TEST(Endpoints, Schemes) {
@@ -172,7 +172,7 @@ TEST(Endpoints, AWrongDelayNamesTheRange) {
 TEST(Endpoints, AWrongFormNamesKeyValueAndAllowed) {
   EXPECT_THAT(write_error("shm:7?format=eulr"), AllOf(HasSubstr("format = \"eulr\""), HasSubstr("euler")));
   EXPECT_EQ(parse_sink("shm:7?format=vertical,diagonal")->form.format, std::uint32_t{wire::diagonal})
-      << "of opposite words the last one counts";
+      << "the last of opposite words is used";
   EXPECT_THAT(write_error("shm:7?preset=unrael"), AllOf(HasSubstr("'unrael'"), HasSubstr("unreal_trackmen")));
   EXPECT_THAT(write_error("shm:7?preset=unreal_trackmen&format=euler"),
               HasSubstr("must not be given together with format"));
@@ -187,7 +187,7 @@ TEST(Endpoints, OptionsThatAFormDoesNotSetHaveDefaults) {
   defaults.id = 5;
   const auto form = transport::with_defaults(parse_sink("shm:7?format=matrix")->form, defaults);
   EXPECT_EQ(form.format, 0u);
-  EXPECT_TRUE(form.sends_id) << "it came with the default's format";
+  EXPECT_TRUE(form.sends_id) << "it belongs to the default's format";
   EXPECT_EQ(form.id, 5u);
   const auto by_id = transport::with_defaults(parse_sink("shm:7?id=9")->form, defaults);
   EXPECT_EQ(by_id.format, defaults.format);

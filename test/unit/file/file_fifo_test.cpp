@@ -1,4 +1,4 @@
-// Takes that are played while another program writes them into a FIFO.
+// Takes that are played while another program writes them to a FIFO.
 #include <chrono>
 #include <cstdint>
 #include <stdexcept>
@@ -36,7 +36,7 @@ class PlayFifo : public PlayFile {
     ::unlink(path.c_str());
     if (::mkfifo(path.c_str(), 0600) != 0) throw std::runtime_error("no FIFO");
   }
-  /// As a program that writes and stays.
+  /// Like a program that writes and does not exit.
   void write(const std::string& text) {
     if (fd < 0) fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     ASSERT_EQ(::write(fd, text.data(), text.size()), static_cast<ssize_t>(text.size()));
@@ -64,7 +64,7 @@ TEST_F(PlayFifo, LinesArePlayedWhenTheyArrive) {
     ASSERT_EQ(source->receive(r, 0ns), Event::sample);
     EXPECT_EQ(counter(r), i);
   }
-  EXPECT_EQ(source->receive(r, 1ms), Event::idle) << "the third is not whole";
+  EXPECT_EQ(source->receive(r, 1ms), Event::idle) << "the third is not complete";
   write(take.substr(cut));
   ASSERT_EQ(source->receive(r, 0ns), Event::sample);
   EXPECT_EQ(counter(r), 3U);

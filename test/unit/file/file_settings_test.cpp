@@ -87,7 +87,7 @@ TEST(FileSettings, TheTimeInNamesOfRecordings) {
   const auto name = [](const std::string& url) { return file_out(url).path.at(time); };
   EXPECT_EQ(name("file:takes/crane-%Y%m%d-%H%M%S.trk"), "takes/crane-20261122-102030.trk");
   EXPECT_EQ(name("file:%y%j.trk"), "26326.trk");
-  EXPECT_EQ(name("file:what%3F%20100%25Y.trk"), "what? 100%Y.trk") << "a % that was written as %25 begins nothing";
+  EXPECT_EQ(name("file:what%3F%20100%25Y.trk"), "what? 100%Y.trk") << "a % that is written as %25 starts no escape";
   EXPECT_EQ(name("file:%d4-%D4-%41.trk"), "224-\xD4-A.trk") << "%d is the day, %D4 a byte";
   EXPECT_TRUE(file_out("file:%Y").path.has_time());
   EXPECT_FALSE(file_out("file:%25Y%41").path.has_time());
@@ -95,7 +95,7 @@ TEST(FileSettings, TheTimeInNamesOfRecordings) {
   for (const char* wrong : {"file:100%", "file:%00", "file:%Q", "file:%%", "file:%F"}) {
     EXPECT_THAT(write_error(wrong), AllOf(HasSubstr(wrong + 5), HasSubstr("Y y m d j H M S"), HasSubstr("%25")));
   }
-  EXPECT_EQ(file_in("file:%d4").path, "\xD4") << "what is read has a name already";
+  EXPECT_EQ(file_in("file:%d4").path, "\xD4") << "a file that is read already has a name";
   EXPECT_THAT(read_error("file:%Y"), HasSubstr("hexadecimal"));
 }
 

@@ -1,4 +1,4 @@
-// Recordings as a program makes them, by URL.
+// Recordings by URL.
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
@@ -46,7 +46,7 @@ class FileSinkTest : public testing::Test {
     return test::error_of<TransportError>([&] { static_cast<void>(open_sink(url(rest))); });
   }
   std::unique_ptr<Sink> unopened(const std::string& rest) const { return endpoints::parse_sink(url(rest))->open(); }
-  /// One that begins at that time.
+  /// A recording that starts at that time.
   void record(const std::string& rest, std::int64_t time = moment) const {
     const auto sink = open_sink(url(rest));
     ASSERT_TRUE(sink->write(constants()));
@@ -55,7 +55,7 @@ class FileSinkTest : public testing::Test {
     ASSERT_TRUE(sink->close());
   }
   std::string code_in(const std::string& name) const { return base::to_string(read_take(directory / name).time_code); }
-  /// As a writer that was killed leaves it.
+  /// As after a writer was killed.
   void leave_part(const std::string& name) const {
     write_text(directory / (name + ".part"),
                "DMC01\n10:20:30:12:1\n720 576 0 0 0 0 8.8 6.6 8.8 6.6\n1 2 3 4 5 6 7\n1 2");
@@ -82,7 +82,7 @@ TEST_F(FileSinkTest, TheTimeCodeIsTheTimeOfDayOfTheFirstField) {
 }
 
 TEST_F(FileSinkTest, WithoutATimeItIsTheCurrentTime) {
-  // In a minute that does not end meanwhile.
+  // At a time at which the minute does not end during the test.
   const auto minutes = [] { return std::time(nullptr) / 60; };
   std::time_t before = 0;
   std::string code;

@@ -183,7 +183,7 @@ TEST_F(PlayFile, NoFieldIsEverEarlyAndTheScheduleDoesNotDrift) {
   for (int i = 0; i <= 20; ++i) {
     ASSERT_EQ(source->receive(r, -1ns), Event::sample);
     EXPECT_GE(Clock::now() - begin, i * 5ms);
-    // What a reader loses, it catches up: what is overdue comes without waiting.
+    // A reader that was late catches up: overdue records are given without waiting.
     if (i == 10) {
       while (Clock::now() - begun < 75ms) std::this_thread::yield();
       for (int late = 11; late <= 15; ++late, ++i) ASSERT_EQ(source->receive(r, 0ns), Event::sample);
@@ -355,7 +355,7 @@ TEST_F(PlayFile, ReadsWhatTheSinkWrote) {
   ASSERT_TRUE(sink->write(constants));
   ASSERT_TRUE(sink->write(params));
   ASSERT_TRUE(sink->close());
-  EXPECT_EQ(sink->statistics().constants, 2u) << "both were written, though the file holds them once";
+  EXPECT_EQ(sink->statistics().constants, 2u) << "both were written, although the file contains them once";
   EXPECT_EQ(sink->statistics().params, 1u);
   EXPECT_EQ(sink->statistics().errors, 1u);
 

@@ -32,7 +32,7 @@ class PartFileTest : public testing::Test {
     if (!file) throw std::runtime_error(path + ": " + transport::describe(file.error()));
     return *std::move(file);
   }
-  /// None where it can be opened.
+  /// None if it can be opened.
   std::optional<SinkReason> refusal(const PartFile::Options& options = {}) const {
     const auto file = PartFile::open(path, options);
     return file ? std::nullopt : std::optional(file.error().reason);
@@ -110,7 +110,7 @@ TEST_F(PartFileTest, AUniqueNameMustNotExist) {
     const auto file = opened(path, options);
     EXPECT_EQ(refusal(options), SinkReason::in_use);
   }
-  EXPECT_EQ(refusal(options), SinkReason::in_use) << "nobody writes it, and yet it is there";
+  EXPECT_EQ(refusal(options), SinkReason::in_use) << "it exists, although no process writes it";
 }
 
 TEST_F(PartFileTest, OtherThanFilesAreRefusedAndUnchanged) {
@@ -123,7 +123,7 @@ TEST_F(PartFileTest, OtherThanFilesAreRefusedAndUnchanged) {
     }
   }
   ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
-  EXPECT_EQ(refusal({true}), SinkReason::not_a_file) << "FIFOs have to be allowed";
+  EXPECT_EQ(refusal({true}), SinkReason::not_a_file) << "FIFOs must be allowed";
   EXPECT_TRUE(std::filesystem::is_fifo(path));
   std::filesystem::remove(path);
   ASSERT_EQ(::mkfifo(part.c_str(), 0600), 0);
@@ -146,7 +146,7 @@ TEST_F(PartFileTest, AFifoIsWrittenDirectlyOnceItHasAReader) {
   EXPECT_FALSE(exists(part));
 }
 
-/// What an interrupted writer leaves.
+/// The file after an interrupted writer.
 class RecoverPart : public PartFileTest {
  protected:
   const std::string take = directory / "crane.trk";

@@ -91,7 +91,7 @@ TEST_F(ReadTake, CarriageReturnsCommentsAndBlankLinesAreIgnored) {
 }
 
 TEST_F(ReadTake, TheWrongLineIsNamedExactly) {
-  // Three lines of head, so that the 54th set stands in line 57.
+  // Three lines of head, so that the 54th set is in line 57.
   std::string text = head;
   for (int i = 0; i < 100; ++i) text += i == 53 ? "1 14.5 -4 15 158 -78 137 53.5 oops 0 0 0 16.5 8 1000\n" : line;
   EXPECT_EQ(error_of_text(text), path + ":57: field 9 is not a number");
@@ -138,8 +138,8 @@ TEST_F(ReadTake, ATruncatedLastLineIsIgnoredForAnyLength) {
   write_text(path, text.substr(0, second + 20) + std::string(100, '\0'));
   EXPECT_EQ(read_take(path).left_out.size(), 1U) << "as after a power failure";
   write_text(path, text.substr(0, second + 20) + "\n");
-  EXPECT_THAT(error_of(path), StartsWith(path + ":5: ")) << "a line with its end is whole";
-  EXPECT_THAT(error_of_text(std::string(head).substr(0, 40)), StartsWith(path + ":3: ")) << "a head that is cut";
+  EXPECT_THAT(error_of(path), StartsWith(path + ":5: ")) << "a line with a line feed is complete";
+  EXPECT_THAT(error_of_text(std::string(head).substr(0, 40)), StartsWith(path + ":3: ")) << "a truncated head";
 }
 
 TEST_F(ReadTake, MalformedLinesAreSkippedIfRequested) {
@@ -163,11 +163,12 @@ TEST_F(ReadTake, MalformedLinesAreSkippedIfRequested) {
 TEST_F(ReadTake, AByteOrderMarkIsSkipped) {
   write_text(path, "\xEF\xBB\xBF" + std::string(head) + line);
   EXPECT_EQ(read_take(path).params.size(), 1U);
-  EXPECT_THAT(error_of_text(std::string(head) + "\xEF\xBB\xBF" + line), StartsWith(path + ":4: ")) << "in front only";
+  EXPECT_THAT(error_of_text(std::string(head) + "\xEF\xBB\xBF" + line), StartsWith(path + ":4: "))
+      << "only at the start";
 }
 
 TEST_F(ReadTake, ALineWithoutEndIsReadOnlyUpToTheLimit) {
-  // 1 GB with holes: a reader that takes it as a whole needs that much memory, which it does not have here.
+  // A sparse file of 1 GB: a reader that loads it completely needs that much memory, which is not available here.
   write_text(path, head);
   ASSERT_EQ(::truncate(path.c_str(), 1 << 30), 0);
   const pid_t child = ::fork();
@@ -178,7 +179,7 @@ TEST_F(ReadTake, ALineWithoutEndIsReadOnlyUpToTheLimit) {
     const std::string error = error_of(path);
     const std::int64_t read = test::bytes_read() - before;
     const bool is_good = error.rfind(path + ":4: a line of 4096 bytes or more", 0) == 0;
-    // The head and the line, and what counting took.
+    // The head and the line, and what was read for counting.
     ::_exit(!is_good ? 1 : read > 3 * 4096 ? 2 : 0);
   }
   int status = 0;
@@ -191,7 +192,7 @@ TEST_F(ReadTake, OtherThanFilesAreRefusedWithoutBeingRead) {
 }
 
 TEST_F(ReadTake, ATakeCanBeReadAgainFromItsFirstField) {
-  // Longer than any block, so that the beginning is not in memory any more.
+  // Longer than any block, so that the beginning is no longer in memory.
   std::string text = "\xEF\xBB\xBF# one\n" + std::string(head) + "# two\n";
   for (int i = 0; i < 2000; ++i) text += std::string(line) + "\n";
   write_text(path, text + "1 2 3");

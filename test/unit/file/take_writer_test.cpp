@@ -122,7 +122,7 @@ TEST_F(WriteTake, OverwritingMustBeRequested) {
 
   TakeWriter writer(path, code, true);
   ASSERT_TRUE(writer.write(some_constants()));
-  EXPECT_EQ(read_text(path), "precious") << "until the new one is whole";
+  EXPECT_EQ(read_text(path), "precious") << "until the new one is complete";
   ASSERT_TRUE(writer.close());
   EXPECT_TRUE(read_take(path).params.empty());
 }

@@ -18,7 +18,7 @@ using transport::Fault;
 using transport::Sample;
 using Next = transport::Decoder::Next;
 
-/// The parameters of a datagram, and in `sample` all that came with them.
+/// The parameters of a datagram, and in `sample` everything that belongs to them.
 wire::CameraParams params_of(Decoder& decoder, const std::string& datagram, Sample& sample) {
   decoder.begin(datagram, {});
   Fault fault;
@@ -102,7 +102,7 @@ TEST(FreeDDecoder, APanPast180DegreesIsContinuous) {
     const double expected = i == 11 ? 0 : 2;
     EXPECT_NEAR(step.angle() * 180 / M_PI, expected, 1e-5) << pans[i - 1] << " to " << pans[i];
   }
-  EXPECT_EQ(params_of(message_of(190)).euler.pan, -190) << "what the sender counts is kept";
+  EXPECT_EQ(params_of(message_of(190)).euler.pan, -190) << "the sender's counter is kept";
 }
 
 TEST(FreeDDecoder, FaultsNameTheProblem) {
@@ -130,7 +130,7 @@ TEST(FreeDDecoder, AWrongChecksumIsAFaultOrADoubt) {
   EXPECT_EQ(params_of(decoder, zero, sample), params_of(test::worked_message()));
   EXPECT_STREQ(sample.doubt, "wrong checksum");
   EXPECT_EQ(params_of(decoder, test::worked_message(), sample).counter, 1u) << "the second of this camera";
-  EXPECT_STREQ(sample.doubt, "") << "of each message by itself";
+  EXPECT_STREQ(sample.doubt, "") << "of each message separately";
 }
 
 /// The message with these counts and spare bytes.
@@ -152,7 +152,8 @@ Sample sample_of(const std::string& datagram, DecoderOptions options) {
 }
 
 TEST(FreeDProfile, ZcamSendsItsLens) {
-  // The maker's example: 950 is 9.50 mm, 12300 is 1230.0 mm, F2.8 is 280 = 0x118, the frame's number above it.
+  // The manufacturer's example: 950 is 9.50 mm, 12300 is 1230.0 mm, F2.8 is 280 = 0x118, with the frame number above
+  // it.
   const auto sample = sample_of(counts(950, 12300, 0x5118), {Profile::zcam, nullptr, false});
   const auto& p = std::get<wire::CameraParams>(sample.record);
   EXPECT_TRUE(sample.has_lens);

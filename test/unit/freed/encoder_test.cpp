@@ -16,7 +16,7 @@ using test::bytes;
 using test::table_of;
 using testing::HasSubstr;
 
-/// The one datagram of the record, or the fault.
+/// The only datagram of the record, or the fault.
 std::string datagram_of(Encoder& encoder, const wire::CameraParams& params) {
   if (const auto begun = encoder.begin(params); !begun) return describe(begun.error());
   const auto datagram = encoder.next();
@@ -102,13 +102,13 @@ TEST(FreeDEncoder, EveryFormatGivesTheSameBytes) {
 
 TEST(FreeDEncoder, PanContinuesPast180Degrees) {
   Encoder encoder({});
-  // Free-D's 170 to 250 degrees, as trk tells it between -180 and 180.
+  // Free-D's 170 to 250 degrees, which in trk are between -180 and 180.
   for (int pan = 170; pan <= 250; pan += 5) {
     EXPECT_EQ(pan_in(datagram_of(encoder, looking(pan > 180 ? 360 - pan : -pan))), pan);
   }
   EXPECT_EQ(pan_in(datagram_of(encoder, looking(360 - 255))), 255);
-  EXPECT_EQ(pan_in(datagram_of(encoder, looking(360 - 260))), -100) << "256 is not within reach";
-  EXPECT_EQ(pan_in(datagram_of(encoder, looking(360 - 255))), -105) << "from there it goes on again";
+  EXPECT_EQ(pan_in(datagram_of(encoder, looking(360 - 260))), -100) << "256 is out of range";
+  EXPECT_EQ(pan_in(datagram_of(encoder, looking(360 - 255))), -105) << "it continues from there";
 }
 
 TEST(FreeDEncoder, CamerasAreUnwrappedEachByItself) {
@@ -186,7 +186,7 @@ TEST(FreeDEncoder, PosesRoundTrip) {
     transport::Fault fault;
     ASSERT_EQ(decoder.next(sample, fault), transport::Decoder::Next::sample);
     const auto& e = std::get<wire::CameraParams>(sample.record).euler;
-    // Half of a unit of the message.
+    // Half a unit of the message.
     EXPECT_NEAR(e.x, p.euler.x, 0.51e-3 / 64);
     EXPECT_NEAR(e.y, p.euler.y, 0.51e-3 / 64);
     EXPECT_NEAR(e.z, p.euler.z, 0.51e-3 / 64);

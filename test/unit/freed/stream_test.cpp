@@ -37,7 +37,7 @@ TEST(FreeDUrl, ReadingOptions) {
   EXPECT_EQ(e.profile, Profile::zcam);
   EXPECT_TRUE(e.lenient);
   EXPECT_EQ(endpoints::parse_source("freed://:7000")->place, endpoints::parse_source("udp://:7000")->place)
-      << "only one can read a port";
+      << "only one source can read a port";
 }
 
 TEST(FreeDUrl, WhatIsWrongIsNamed) {
@@ -73,7 +73,8 @@ TEST(FreeDStream, ASourceReadsWhatASinkSends) {
   Reception reception;
   ASSERT_EQ(test::next(*source, reception), Event::sample);
   params.counter = 0;
-  EXPECT_EQ(std::get<wire::CameraParams>(reception.sample.record), params) << "exact: all of it fits the units";
+  EXPECT_EQ(std::get<wire::CameraParams>(reception.sample.record), params)
+      << "exact: all values are multiples of the units";
   const auto refused = sink->write(test::params(6));
   ASSERT_FALSE(refused);
   EXPECT_THAT(transport::describe(refused.error()), HasSubstr("camera number"));

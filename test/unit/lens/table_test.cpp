@@ -42,7 +42,7 @@ TEST(LensTable, PchipByHand) {
   for (const auto& [zoom, length] : {std::pair{0.0, 8.0}, {10.0, 12.0}, {30.0, 40.0}}) {
     EXPECT_DOUBLE_EQ(focal_length(table, zoom), length);
   }
-  // k1 does not change at first, and then falls: it never goes beyond its points.
+  // k1 does not change at first, and then falls: the curve never exceeds its points.
   for (double zoom = 0; zoom <= 10; zoom += 0.5) EXPECT_DOUBLE_EQ(table.lens_at({zoom, 0})->k1, 0.001);
   EXPECT_DOUBLE_EQ(table.lens_at({10, 0})->center_shift.x(), 0.1);
   EXPECT_DOUBLE_EQ(table.lens_at({10, 0})->center_shift.y(), -0.2);
@@ -62,7 +62,7 @@ TEST(LensTable, TwoPointsAreALine) {
 
 TEST(LensTable, NothingIsExtrapolated) {
   const Table table = table_of("points: [{zoom: 100, focal_length: 8}, {zoom: 1100, focal_length: 80}]");
-  EXPECT_DOUBLE_EQ(focal_length(table, 90), 8) << "the play of an encoder: a hundredth of the range";
+  EXPECT_DOUBLE_EQ(focal_length(table, 90), 8) << "the tolerance for encoders: a hundredth of the range";
   EXPECT_DOUBLE_EQ(focal_length(table, 1110), 80);
   EXPECT_FALSE(table.lens_at({89, 0}));
   EXPECT_FALSE(table.lens_at({1111, 0}));
@@ -98,7 +98,7 @@ TEST(LensTable, FocusChangesTheFocalLength) {
   EXPECT_DOUBLE_EQ(focal_length(table, 50, 1000), 49.5);
   EXPECT_DOUBLE_EQ(focal_length(table, 50, 250), 45.375);
   EXPECT_DOUBLE_EQ(table.lens_at({50, 500})->focdist, 1);
-  EXPECT_DOUBLE_EQ(table.lens_at({50, 250})->focdist, 1 / 1.5) << "halfway of 2/m and 1/m";
+  EXPECT_DOUBLE_EQ(table.lens_at({50, 250})->focdist, 1 / 1.5) << "halfway between 2/m and 1/m";
   EXPECT_FALSE(table.lens_at({50, 1011}));
 }
 

@@ -30,7 +30,7 @@ TEST(ArrivalWindow, AllAtOnceHaveNoRate) {
 
 TEST(ArrivalWindow, JitterIsTheDistanceFromTheMedianInterval) {
   ArrivalWindow window;
-  // Intervals of 20 ms but for one that is 5 ms late and so leaves the next one short.
+  // Intervals of 20 ms except for a late one of 25 ms, after which the next one is short.
   for (const std::int64_t at : {0, 20, 40, 65, 80, 100, 120}) window.add(at * ms);
   const auto jitter = window.jitter().value();
   EXPECT_EQ(jitter.interval, 20 * ms);
@@ -62,7 +62,7 @@ TEST(ArrivalWindow, RecordsOlderThanTenSecondsAreRemoved) {
   ArrivalWindow window;
   window.add(0);
   window.add(100 * ms);
-  window.add(900 * ms);  // late by a lot
+  window.add(900 * ms);  // very late
   for (std::int64_t at = 1000; at <= 11'000; at += 100) window.add(at * ms);
   EXPECT_EQ(window.jitter().value().worst, 0);
   EXPECT_DOUBLE_EQ(window.rate().value(), 10);
@@ -71,7 +71,7 @@ TEST(ArrivalWindow, RecordsOlderThanTenSecondsAreRemoved) {
 TEST(ArrivalWindow, HasALimitedSize) {
   ArrivalWindow window;
   window.add(0);
-  window.add(500'000);  // an interval unlike the others, which has to go
+  window.add(500'000);  // a different interval, which must be removed
   for (std::int64_t i = 1; i <= 4001; ++i) window.add(500'000 + i * 1000);
   EXPECT_EQ(window.jitter().value().worst, 0);
 }

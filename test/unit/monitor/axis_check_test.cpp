@@ -32,7 +32,7 @@ TEST(AxisCheck, ReportsWhichAxisMovedAndItsSign) {
   check.look(turned);
   EXPECT_THAT(check.lines(), ElementsAre(HasSubstr("found; space"), "pan left: pan +6.00 deg: right"));
   check.look(moved(4, 80));
-  EXPECT_THAT(check.lines()[1], "pan left: pan +6.00 deg: right") << "the way back is no movement";
+  EXPECT_THAT(check.lines()[1], "pan left: pan +6.00 deg: right") << "moving back is no movement";
 
   check.next(start);
   EXPECT_THAT(check.lines().front(), "AXIS CHECK 2/6: tilt up now (lens upwards)");

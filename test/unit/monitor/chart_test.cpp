@@ -74,7 +74,7 @@ TEST(History, GivesTheRangesOfItsColumns) {
   EXPECT_TRUE(history.columns(Value::lens, 11'000 * ms, 10'000 * ms, 10)[5].is_empty()) << "it is not known";
   const auto later = history.columns(Value::pan, 16'000 * ms, 10'000 * ms, 10);
   EXPECT_EQ(later[4].high, 499);
-  EXPECT_TRUE(later[5].is_empty()) << "nothing came since";
+  EXPECT_TRUE(later[5].is_empty()) << "nothing was received since";
 }
 
 TEST(History, KeepsAMinuteAndIsClearedWhenTimeGoesBack) {

@@ -1,6 +1,6 @@
-// Ten faults as they are met in studios: whether the monitor names each first within five seconds.
+// Ten faults of real studios: whether the monitor names each as the first one within five seconds.
 //
-// Datagrams go through a real UDP source on the loopback. Times are the script's, so that rates and stalls are exact
+// Datagrams are received by a real UDP source on the loopback. Times are simulated, so that rates and stalls are exact
 // and no test waits for a clock.
 #include <algorithm>
 #include <chrono>
@@ -30,7 +30,7 @@ using testing::HasSubstr;
 constexpr std::int64_t ms = 1'000'000;
 constexpr std::int64_t five_seconds = 5000 * ms;
 
-/// A source, and a model that watches it on the script's clock.
+/// A source, and a model that watches it, on a simulated clock.
 class Studio {
  public:
   explicit Studio(const std::string& options = "", const std::string& address = "127.0.0.1")
@@ -39,7 +39,7 @@ class Studio {
   std::uint16_t port() const { return test::port_of(*source_); }
   const std::string& address() const { return address_; }
 
-  /// The datagram arrives `at` after the beginning, if the source takes it.
+  /// The datagram arrives `at` after the start, if the source accepts it.
   void send(const test::PlainSocket& from, const std::string& datagram, std::int64_t at) {
     const auto before = source_->statistics();
     from.send(datagram, address_, port());
@@ -53,7 +53,7 @@ class Studio {
       if (event == transport::Event::malformed) return model_.add_malformed(reception, begin_ + nanoseconds(at));
       if (is_counted()) return;
     }
-    FAIL() << "the datagram did not come";
+    FAIL() << "the datagram was not received";
   }
   State state(std::int64_t at) { return model_.state(begin_ + nanoseconds(at), *source_); }
 
@@ -87,7 +87,7 @@ class Tracker {
   std::uint64_t sent_ = 0;
 };
 
-/// Looks ten times a second, as the screen does, until the first finding is the one; the last state it has seen.
+/// Updates ten times a second, like the screen, until the first finding is the expected one; returns the last state.
 State watched(Studio& studio, Condition condition, std::int64_t interval,
               const std::function<void(std::uint64_t n, std::int64_t at)>& send) {
   State state;
@@ -146,7 +146,7 @@ TEST(TenFaults, One_ARateThatIsNotTheOneExpected) {
 TEST(TenFaults, Two_Stalls) {
   Studio studio;
   Tracker tracker(studio, 7);
-  // Every second what 240 ms would have sent is held back and comes at their end.
+  // Every second the records of 240 ms are held back and sent together.
   const auto state = watched(studio, Condition::stalls, 20 * ms, [&](std::uint64_t n, std::int64_t at) {
     const std::uint64_t of_second = n % 50;
     if (of_second < 38) return tracker.send(n, at);
@@ -199,7 +199,7 @@ TEST_P(ATimeCodeAsCounter, Six) {
   EXPECT_THAT(all(state), testing::Not(HasSubstr(": lost")));
 }
 
-// From 10:20:58:00 on, so that a minute begins.
+// From 10:20:58:00 on, so that a new minute starts.
 std::uint64_t parts(std::uint64_t n, std::uint64_t base) {
   const std::uint64_t second = 58 + n / 25;
   return ((10 * base + 20 + second / 60) * base + second % 60) * base + n % 25;
@@ -225,7 +225,7 @@ TEST(TenFaults, Eight_ASenderOnAnotherInterface) {
   Studio studio("", "127.0.0.2");
   const test::PlainSocket sender;
   const auto state = watched(studio, Condition::other_interface, 20 * ms, [&](std::uint64_t n, std::int64_t) {
-    // Nobody listens there, and the sender is told so, which it does not notice.
+    // No socket receives there. The kernel reports that to the sender, which ignores it.
     const auto to = test::datagram(test::params(n, 7));
     sockaddr_in address{};
     address.sin_family = AF_INET;
@@ -239,7 +239,7 @@ TEST(TenFaults, Eight_ASenderOnAnotherInterface) {
             HasSubstr("another interface, address or port")));
 }
 
-/// A machine with two interfaces, and a tracker with two. Throws where there are no network namespaces.
+/// A machine with two interfaces, and a tracker with two. Throws if network namespaces are not available.
 struct TwoNetworks {
   test::NetworkNamespace studio, tracker;
 
@@ -251,7 +251,7 @@ struct TwoNetworks {
       side->ip("addr add 10.77.1" + last + " dev one\naddr add 10.77.2" + last +
                " dev two\nlink set one up\nlink set two up");
     }
-    // The filter drops the question for the address, too.
+    // The filter also drops the address request (ARP).
     studio.ip("link set one address 02:00:00:00:01:01");
     tracker.ip("neigh add 10.77.1.1 lladdr 02:00:00:00:01:01 dev one nud permanent");
     const test::NetworkNamespace::Stay stay(studio);

@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 
 class ModelTest : public testing::Test {
  protected:
-  /// A sample that arrives, and is handed out, `at` after the beginning.
+  /// A sample that arrives, and is given to the model, `at` after the start.
   void add(const wire::Record& record, milliseconds at, std::uint32_t port = 5000) {
     transport::Sample sample;
     sample.record = record;
@@ -46,7 +46,7 @@ TEST_F(ModelTest, ReportsRateCounterLossAndAge) {
   ASSERT_EQ(s.cameras.size(), 1U);
   const auto& camera = s.cameras.front();
   EXPECT_EQ(camera.key.id, 7U);
-  EXPECT_EQ(camera.counts.lost, 0U);  // 102 came late
+  EXPECT_EQ(camera.counts.lost, 0U);  // 102 was late
   EXPECT_EQ(camera.counts.late, 1U);
   EXPECT_EQ(camera.counts.duplicates, 1U);
   EXPECT_EQ(camera.latest->params.counter, 104U);
@@ -115,7 +115,7 @@ TEST_F(ModelTest, AFrozenStateDoesNotChange) {
   const auto live = state(milliseconds(20));
   const auto kept = frozen(live);
   add(test::params(2), milliseconds(40));
-  EXPECT_EQ(live.cameras.front().history->newest(), 40'000'000) << "it is the model's";
+  EXPECT_EQ(live.cameras.front().history->newest(), 40'000'000) << "it belongs to the model";
   EXPECT_EQ(kept.cameras.front().history->newest(), 20'000'000);
 }
 

@@ -1,4 +1,4 @@
-// `trk monitor` as its user runs it: on a terminal, and into a pipe.
+// `trk monitor`, run like a user does: on a terminal, and into a pipe.
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -33,7 +33,7 @@ using testing::Not;
 using testing::StartsWith;
 using Clock = std::chrono::steady_clock;
 
-/// `trk monitor` of a port of its own on a terminal of 80 by 24.
+/// `trk monitor` of a separate port on a terminal of 80 by 24.
 class MonitorOnATerminal {
  public:
   explicit MonitorOnATerminal(const std::string& type = "vt100", const char* no_color = nullptr,
@@ -42,7 +42,7 @@ class MonitorOnATerminal {
     master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
     if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0) throw std::runtime_error("no terminal");
     const std::string name = ::ptsname(master_);
-    // Held open, so that its settings outlive the program.
+    // Kept open, so that its settings outlive the program.
     slave_ = ::open(name.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
     set_size(80, 24);
     before_ = settings();
@@ -68,12 +68,12 @@ class MonitorOnATerminal {
   void type(char key) const { ASSERT_EQ(::write(master_, &key, 1), 1); }
   void signal(int number) const { ::kill(pid_, number); }
 
-  /// Reads what is drawn until the screen is as wanted; `meanwhile` is done every time before. False when it never is.
+  /// Reads the output until the screen is as expected; calls `meanwhile` before each read. False if that never happens.
   bool shows(
       const std::function<bool(const std::string&)>& wanted, const std::function<void()>& meanwhile = [] {}) {
     const auto end = Clock::now() + test::deadline;
     for (;;) {
-      // What has been drawn to its end.
+      // Only complete drawings.
       while (read_some(5)) {
       }
       if (wanted(screen.text())) return true;
@@ -115,7 +115,7 @@ class MonitorOnATerminal {
   }
 
   test::Vt100 screen{80, 24};
-  std::string written;  ///< all of it, with its sequences
+  std::string written;  ///< all output, with its sequences
 
  private:
   [[noreturn]] void become(const std::string& type, const char* no_color) const {
@@ -147,7 +147,7 @@ class MonitorOnATerminal {
     return now;
   }
 
-  /// What comes within the time.
+  /// The output within the time.
   bool read_some(int milliseconds = 50) {
     pollfd watched{master_, POLLIN, 0};
     if (::poll(&watched, 1, milliseconds) != 1) return false;
@@ -166,7 +166,7 @@ class MonitorOnATerminal {
   pid_t pid_ = -1;
 };
 
-/// Sends one more set of parameters of camera 7 with every call.
+/// Each call sends the next parameters of camera 7.
 class Tracker {
  public:
   explicit Tracker(std::uint16_t port) : port_(port) {}
@@ -247,7 +247,7 @@ TEST(TrkMonitor, HasKeys) {
   ASSERT_TRUE(monitor.shows("p  pause          r  reset")) << monitor.screen.text();
   monitor.type('p');
   ASSERT_TRUE(monitor.shows([](const std::string& text) { return has(text, "trk monitor  receiving"); }))
-      << "any key goes back, and does nothing else";
+      << "any key returns, and does nothing else";
 
   monitor.type('p');
   ASSERT_TRUE(monitor.shows("PAUSED")) << monitor.screen.text();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t field = 20'000'000;  // ns, 50 Hz
 
-/// The rest after `seconds` of poses at 50 Hz; `pose_at` gives that of field n.
+/// The deviation at rest after `seconds` of poses at 50 Hz; `pose_at` returns the pose of field n.
 template <typename PoseAt>
 Rest rest_after(double seconds, PoseAt pose_at) {
   RestWindow window;
@@ -52,9 +52,9 @@ TEST(RestWindow, NoiseIsNotMotion) {
 }
 
 TEST(RestWindow, ASlowMoveIsMotionAlthoughItsRangeIsSmall) {
-  // A millimetre a second: 3 mm in the window, less than the noise that is let through.
+  // One millimetre per second: 3 mm in the window, less than the noise that is accepted.
   EXPECT_EQ(rest_after(4.0, [](int n) { return PoseNumbers{n * 0.00002, 0, 0, 0, 0, 0}; }).motion, Motion::moving);
-  // A fiftieth of a degree a second.
+  // 0.02 degrees per second.
   EXPECT_EQ(rest_after(4.0, [](int n) { return PoseNumbers{0, 0, 0, n * 0.0004, 0, 0}; }).motion, Motion::moving);
 }
 

@@ -196,7 +196,7 @@ TEST(View, PlotsAndAHistogramUseTheRemainingSpace) {
   const std::string text = joined(lines);
   EXPECT_THAT(text, AllOf(HasSubstr("pan (deg), last 10 s"), HasSubstr("tilt (deg), last 10 s"),
                           HasSubstr("intervals, last 10 s"), HasSubstr("20.00 ms   499 ####")));
-  // It rises from the left to the right, over all of the width.
+  // It rises from left to right over the full width.
   const auto title =
       std::find_if(lines.begin(), lines.end(), [](const std::string& line) { return line.rfind("pan (deg)", 0) == 0; });
   ASSERT_NE(title, lines.end());
@@ -259,7 +259,7 @@ TEST(View, EncoderCountsWithoutALens) {
   EXPECT_THAT(text, HasSubstr("  no lens            zoom encoder 74565 focus encoder -9   wrong checksum"));
   EXPECT_THAT(text, HasSubstr("taken in spite of a fault 2"));
   EXPECT_THAT(text, Not(HasSubstr("counter"))) << "there is none";
-  EXPECT_THAT(text, Not(HasSubstr("CONSTANTS"))) << "they would be of no use";
+  EXPECT_THAT(text, Not(HasSubstr("CONSTANTS"))) << "they would be useless";
 }
 
 TEST(View, ShowsFaults) {

@@ -1,4 +1,4 @@
-// The library that reads JSON and CBOR allocates for long names, and nothing else does.
+// Only the library that reads JSON and CBOR allocates, for long names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace trk_bridge::opentrackio {
 namespace {
 
-/// What a decoder that knows the sender allocates for the datagram; the samples and faults are counted in `given`.
+/// Allocations of a decoder for a datagram of a known sender; the samples and faults are counted in `given`.
 std::uint64_t allocations_for(PacketDecoder& decoder, const std::string& datagram, int& given) {
   transport::Sample sample;
   transport::Fault fault;
@@ -27,7 +27,7 @@ TEST(Allocation, ForDatagramsThatAreNotRead) {
   int given = 0;
   (void)allocations_for(decoder, segment, given);
   (void)allocations_for(decoder, good, given);
-  EXPECT_EQ(given, 3) << "the segment was lost, and two records came";
+  EXPECT_EQ(given, 3) << "the segment was lost, and two records were received";
   for (const std::string& datagram : {good, broken, broken.substr(0, 10), segment}) {
     EXPECT_EQ(allocations_for(decoder, datagram, given), 0U);
   }

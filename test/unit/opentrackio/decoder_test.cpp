@@ -1,4 +1,4 @@
-// What comes of packets and samples.
+// The results of packets and samples.
 #include "opentrackio/decoder.h"
 
 #include <gmock/gmock.h>
@@ -200,7 +200,7 @@ TEST(OpenTrackIoDecoder, PayloadsOfAnotherEncoding) {
   EXPECT_THAT(given(decoder, packet_of(text + "}")).faults, ElementsAre(HasSubstr("not JSON")));
   EXPECT_THAT(given(decoder, packet_of("")).faults, ElementsAre(HasSubstr("not JSON")));
   EXPECT_THAT(given(decoder, packet_of(text, Encoding::cbor)).faults, ElementsAre(HasSubstr("not CBOR")));
-  // 1e999 is no number of a double, and in CBOR there are NaN and infinity.
+  // 1e999 is out of range of a double, and CBOR has NaN and infinity.
   EXPECT_THAT(given(decoder, packet_of(R"({"lens": {"fStop": 1e999}})")).faults, SizeIs(1));
   const std::string nan(
       "\xA1\x64lens\xA1\x65"
@@ -263,7 +263,7 @@ TEST(OpenTrackIoDecoder, SegmentsAreOneSample) {
     const auto parts = segments(5, sequence);
     EXPECT_THAT(given(decoder, parts[0]).samples, IsEmpty());
     EXPECT_THAT(given(decoder, parts[1]).samples, IsEmpty());
-    EXPECT_THAT(given(decoder, parts[1]).faults, IsEmpty()) << "twice is once";
+    EXPECT_THAT(given(decoder, parts[1]).faults, IsEmpty()) << "a duplicate is ignored";
     const Given all = given(decoder, parts[2]);
     EXPECT_THAT(all.faults, IsEmpty());
     EXPECT_EQ(all.params().counter, 5U);
@@ -297,7 +297,7 @@ TEST(OpenTrackIoDecoder, AnIncompleteSampleIsDiscarded) {
       }
     }
     EXPECT_THAT(counters, ElementsAre(0U, 2U)) << missing;
-    EXPECT_THAT(faults, ElementsAre(HasSubstr("a segment is missing"))) << missing << ": reported once";
+    EXPECT_THAT(faults, ElementsAre(HasSubstr("lacks a segment"))) << missing << ": reported once";
   }
 }
 
@@ -385,7 +385,7 @@ TEST(OpenTrackIoDecoder, TenThousandMutatedPackets) {
       }
       if (bytes.empty()) bytes = "x";
     }
-    // Behind a sound header the reader of the sample sees what was changed.
+    // With a valid header, the changed bytes reach the parser of the sample.
     if (!with_header) bytes = packet_of(bytes.substr(0, 3000), encoding, static_cast<unsigned>(i));
     const test::ExactCopy exact(bytes);
     const Given all = given(decoder, exact.view());
@@ -431,7 +431,7 @@ TEST(OpenTrackIoDecoder, ReferenceSamples) {
         EXPECT_EQ(params.euler.roll, 45);
         EXPECT_EQ(params.euler.z, 3);
       }
-      // The only one that has all of the sensor.
+      // The only one with all values of the sensor.
       if (sample.contains("static") && sample["static"]["camera"].contains("activeSensorResolution")) {
         EXPECT_EQ(all.constants().image_width, 3840);
         EXPECT_EQ(all.constants().chip_height, 24);

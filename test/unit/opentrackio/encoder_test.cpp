@@ -1,4 +1,4 @@
-// What records become, read by others and by ourselves.
+// The samples of records, read by other code and by this project's.
 #include "opentrackio/encoder.h"
 
 #include <gmock/gmock.h>
@@ -109,7 +109,7 @@ TEST(OpenTrackIoEncoder, MembersAreThoseOfTheProtocol) {
   EXPECT_EQ(at("/transforms").size(), 1U);
   EXPECT_EQ(at("/transforms/0/translation"), Json({{"x", 1.0}, {"y", 2.0}, {"z", 3.0}}));
   EXPECT_EQ(at("/transforms/0/rotation"), Json({{"pan", 190.0}, {"tilt", -10.0}, {"roll", 0.5}}));
-  // Of the blanks the effective picture only; they themselves are in custom, and nothing else.
+  // Blanks reduce the effective picture; the blanks themselves are in custom, and nothing else is.
   EXPECT_EQ(at("/static/camera/activeSensorResolution"), Json({{"width", 1880}, {"height", 1060}}));
   EXPECT_EQ(at("/static/camera/activeSensorPhysicalDimensions"), Json({{"width", 9.6}, {"height", 5.4}}));
   EXPECT_EQ(at("/custom"), Json::parse(R"({"trk": {"constants": {"image_width": 1920, "image_height": 1080,
@@ -180,7 +180,7 @@ TEST(OpenTrackIoEncoder, TheSameRecordsToTheLastBit) {
   for (const Encoding encoding : {Encoding::json, Encoding::cbor}) {
     for (const Model model : {Model::distorted_to_undistorted, Model::undistorted_to_distorted}) {
       for (WorkedCase c : test::worked_cases()) {
-        // What no source number and no 16 bits hold, and numbers that few digits do not.
+        // Numbers that exceed a source number or 16 bits, and numbers that need many digits.
         c.params.id = c.constants.id = 4000000000U;
         c.params.counter += 0xFFFFFFFFFF000000U;
         c.params.focdist = std::nextafter(c.params.focdist, 0);
@@ -218,8 +218,8 @@ TEST(OpenTrackIoEncoder, TheSameCameraWithoutCustom) {
   }
 }
 
-/// OpenLensIO's equations of a point before the camera, written down from the standard's terms: mm on the sensor, y
-/// down. No line of it is of the code under test.
+/// OpenLensIO's equations for a point in front of the camera, from the standard: mm on the sensor, y down. Independent
+/// of the code under test.
 struct Receiver {
   double focal_length = 0, width = 0, height = 0;  // mm
   double columns = 0, rows = 0;
@@ -248,7 +248,7 @@ struct Receiver {
     const double s = r * r;
     return r * (1 + k[0] * s + k[2] * s * s + k[4] * s * s * s) / (1 + k[1] * s + k[3] * s * s + k[5] * s * s * s);
   }
-  /// The smallest radius that is mapped to it, by steps and halving.
+  /// The smallest radius that is mapped to it, by steps and bisection.
   double unmapped(double wanted) const {
     double low = 0, high = 0;
     const double step = wanted / 1000;
@@ -302,8 +302,9 @@ TEST(OpenTrackIoEncoder, ThePixelsOfTheWorkedCasesByTheEquationsOfTheStandard) {
   }
 }
 
-/// What is known of Unreal's reader: the principal point is distortionOffset, fewer than six radial values are none,
-/// nothing is bent without the sensor's size and the focal length; single precision, in units of the sensor.
+/// What is known about Unreal's reader: the principal point is distortionOffset; fewer than six radial values are
+/// ignored; there is no distortion without the sensor's size and the focal length; single precision, in units of the
+/// sensor.
 std::optional<Eigen::Vector2d> unreal_picture(const Json& sample, const Eigen::Vector3d& point) {
   const Json& lens = sample.at("lens");
   const Json& camera = sample.at("static").at("camera");

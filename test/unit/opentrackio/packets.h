@@ -1,4 +1,4 @@
-// Packets, samples and their members, put together and taken apart apart from the code under test.
+// Builds and parses packets, samples and their members, independently of the code under test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 inline const std::string source_id = "urn:uuid:5e1f0a6c-0000-8000-8000-000000000001";
 
-/// A packet with its checksum, by the rule in words: Fletcher's two sums modulo 256.
+/// A packet with its checksum as the standard describes it: Fletcher's two sums modulo 256.
 inline std::string packet_of(std::string_view payload, opentrackio::Encoding encoding = opentrackio::Encoding::json,
                              unsigned sequence = 0, unsigned offset = 0, bool is_last = true) {
   const auto push = [](std::string& to, unsigned value, int bytes) {
@@ -43,7 +43,7 @@ inline std::string packet_of(std::string_view payload, opentrackio::Encoding enc
   return packet + std::string(payload);
 }
 
-/// All that the decoder gives for a datagram.
+/// Everything that the decoder returns for a datagram.
 struct Given {
   std::vector<transport::Sample> samples;
   std::vector<std::string> faults;  ///< described
@@ -91,14 +91,14 @@ std::vector<std::string> datagrams_of(opentrackio::PacketEncoder& encoder, const
   return datagrams;
 }
 
-/// What a receiver of the datagrams reads, CBOR as JSON.
+/// The content of the datagrams for a receiver, CBOR as JSON.
 inline Json sample_in(const std::vector<std::string>& datagrams) {
   std::string text;
   for (const auto& datagram : datagrams) text += datagram.substr(16);
   return datagrams.front()[5] == 1 ? Json::parse(text) : Json::from_cbor(text);
 }
 
-/// A sample with all that trk has, of both parts.
+/// A sample with all trk values, static and dynamic.
 inline Json full_sample() {
   return Json::parse(R"({
     "static": {"camera": {"activeSensorPhysicalDimensions": {"height": 5.4, "width": 9.6},

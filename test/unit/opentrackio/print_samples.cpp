@@ -1,5 +1,5 @@
-// The samples that are written for the worked cases, a line of JSON each: in both encodings, all profiles and models,
-// with and without times. What came of CBOR is printed as JSON.
+// Prints the samples of the worked cases, one line of JSON each: in both encodings, all profiles and models, with and
+// without times. CBOR is printed as JSON.
 #include <iostream>
 
 #include "opentrackio/encoder.h"

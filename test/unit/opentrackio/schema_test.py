@@ -1,5 +1,5 @@
-"""Holds what print_samples prints against JSON schemas: our own of what is required of a sender, and the standard's
-where its folder is given. Usage: schema_test.py PRINT_SAMPLES REQUIRED_JSON [FOLDER]"""
+"""Validates the output of print_samples with JSON schemas: ours for the requirements of a sender, and the standard's if its
+folder is given. Usage: schema_test.py PRINT_SAMPLES REQUIRED_JSON [FOLDER]"""
 
 import json
 import os
@@ -27,9 +27,9 @@ def main():
         for number, sample in enumerate(samples):
             errors = [f"{'.'.join(map(str, e.absolute_path))}: {e.message}" for e in validator.iter_errors(sample)]
             assert not errors, f"sample {number} by {path}: {errors}"
-        # A schema that refuses nothing would show nothing.
+        # Otherwise the schema might accept everything.
         broken = dict(samples[0], transforms=[])
-        assert list(validator.iter_errors(broken)), f"{path} takes a sample without transforms"
+        assert list(validator.iter_errors(broken)), f"{path} accepts a sample without transforms"
         print(f"{len(samples)} samples by {os.path.basename(path)}")
 
 

@@ -126,7 +126,7 @@ TEST(OpenTrackIo, BothGroupsAreReceivedAndAMessageOfBothIsCountedOnce) {
     EXPECT_EQ(test::next_counter(*source), i);
   }
   EXPECT_EQ(source->receive(reception, std::chrono::nanoseconds::zero()), transport::Event::idle);
-  // The very same packet by both ways.
+  // The identical packet on both ways.
   const test::PlainSocket tracker;
   const in_addr loopback{htonl(INADDR_LOOPBACK)};
   ASSERT_EQ(::setsockopt(tracker.fd(), IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof loopback), 0);

@@ -1,4 +1,4 @@
-// The document's six test programs as their users run them.
+// The document's six test programs, run like a user does.
 #include <cmath>
 #include <csignal>
 #include <fstream>
@@ -33,7 +33,7 @@ struct FieldTake {
 
 class WriteFile : public ::testing::TestWithParam<FieldTake> {};
 
-/// The field prints 6 significant digits, of matrices and of small numbers more.
+/// The document's programs print 6 significant digits, and more of matrices and of small numbers.
 void expect_printed(double got, double printed, const std::string& what) {
   EXPECT_NEAR(got, printed, 1e-12 + 6e-6 * std::abs(printed)) << what;
 }
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Takes, WriteFile,
                                            FieldTake{"matrix-studio_to_camera-camera_y_up-studio_y_up.trk",
                                                      {"matrix", "studio_to_camera", "camera_y_up", "studio_y_up"}}));
 
-/// What the field's programs print of the first set of each take.
+/// The output of the document's programs for the first set of each take.
 TEST(ReadFile, prints_the_blocks_that_scripts_read) {
   test::Program reader({program("read_file"), test::data_path("field/takes/euler.trk")});
   const std::string out = reader.rest_of_out();
@@ -143,7 +143,7 @@ TEST(ReadFile, prints_matrices_in_rows) {
   EXPECT_EQ(reader.wait(), 0);
 }
 
-/// Reads until parameters come, then ends both orderly.
+/// Reads until parameters are received, then ends both cleanly.
 void expect_transfer(test::Program& writer, test::Program& reader) {
   bool constants = false, params = false;
   for (int i = 0; i < 100 && !(constants && params); ++i) {

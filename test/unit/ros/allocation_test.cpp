@@ -1,5 +1,4 @@
-// The whole way of a sample, in and out, but for what roscpp does between: nothing of it allocates, and a set is one
-// system call.
+// The complete path of a sample, in and out, without roscpp: it allocates nothing, and a set is one system call.
 #include <gmock/gmock.h>
 
 #include "allocations.h"
@@ -25,7 +24,7 @@ wire::CameraParams params(int i) {
   params.counter = static_cast<std::uint64_t>(i);
   params.format = wire::euler | wire::field_of_view;
   params.euler = {1.25 + i, -2, 1.75, 30, -5.0 / 3, 0.25};
-  // Some fields have a lens that plumb_bob cannot say.
+  // Some fields have a lens that plumb_bob cannot represent.
   params.fov = 40 + 0.01 * i;
   params.k1 = i % 2 == 0 ? -0.002 : -1e-4;
   return params;
@@ -58,7 +57,7 @@ TEST(Allocation, DoesNotHappenFromADatagramToMessages) {
   EXPECT_EQ(count, 0u);
 }
 
-/// From messages to a UDP port, as ros_to_trk does it.
+/// From messages to a UDP port, like ros_to_trk.
 class WayOut {
  public:
   explicit WayOut(int port)
@@ -67,7 +66,7 @@ class WayOut {
     trk_bridge::CameraConstants message;
     to_msg(constants(), message);
     sets_.use(from_msg(message));
-    // Its camera id is new.
+    // With a new camera id.
     write(0);
   }
 
@@ -108,7 +107,7 @@ TEST(SystemCalls, OneFromAMessageToADatagram) {
         return way.sent() == fields + 1u;
       },
       is_permitted);
-  if (!is_permitted) GTEST_SKIP() << "no process may be traced here";
+  if (!is_permitted) GTEST_SKIP() << "tracing processes is not permitted here";
   ASSERT_TRUE(calls);
   // Constants are repeated once a second.
   EXPECT_GE(test::total(*calls), fields);

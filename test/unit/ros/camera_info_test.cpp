@@ -1,4 +1,4 @@
-// What of a CameraInfo message counts for its lens.
+// Which fields of a CameraInfo message belong to its lens.
 #include "ros/camera_info.h"
 
 #include <gmock/gmock.h>

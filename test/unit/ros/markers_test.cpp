@@ -1,4 +1,4 @@
-// What a camera looks like to a viewer of markers.
+// A camera as markers.
 #include "ros/markers.h"
 
 #include <limits>

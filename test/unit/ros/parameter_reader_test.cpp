@@ -117,7 +117,7 @@ TEST(ParameterReader, AMapInheritsValidityAndAddsItsFaults) {
   EXPECT_TRUE(slow->number("rate", rate));
   EXPECT_FALSE(other->number("rate", rate));
   EXPECT_TRUE(slow->are_sound({"rate"}));
-  EXPECT_FALSE(other->are_sound({"rate"})) << "its rate is the node's, which is wrong";
+  EXPECT_FALSE(other->are_sound({"rate"})) << "it uses the node's rate, which is wrong";
   slow->refuse_unknown();
   other->refuse_unknown();
   EXPECT_EQ(end_of(node),

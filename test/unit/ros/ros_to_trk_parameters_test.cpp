@@ -131,7 +131,7 @@ TEST(ReadOutgoing, ARuleIsNotCheckedOnFaultyInput) {
   tree["input"] = "tff";
   tree["blank_left"] = 3;
   EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~input = 'tff'")))
-      << "who knows whether it needs a chip, or may have blanks";
+      << "it is not known whether it needs a chip or may have blanks";
 
   tree = tree_with_sink();
   tree["format"] = 7;
@@ -149,7 +149,7 @@ TEST(ReadOutgoing, Defaults) {
   EXPECT_EQ(p.name, "crane1");
   EXPECT_THAT(p.sinks, ElementsAre(has_url("udp://127.0.0.1:7000")));
   EXPECT_EQ(p.input, OutgoingInput::params);
-  EXPECT_FALSE(p.rate || p.pace || p.form.is_timed()) << "params go out as they come";
+  EXPECT_FALSE(p.rate || p.pace || p.form.is_timed()) << "params are sent at once";
   EXPECT_EQ(p.studio_frame, "studio");
   EXPECT_EQ(p.camera_frame, "crane1");
   EXPECT_FALSE(p.form.id || p.constants);

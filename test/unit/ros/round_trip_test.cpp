@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::int64_t today = 1'700'000'000'000'000'000;
 
-/// A record, its constants and the camera that both mean.
+/// A record, its constants and the camera that both describe.
 struct Case {
   wire::CameraParams params;
   wire::CameraConstants constants;
@@ -36,7 +36,7 @@ bridge::CameraOptions published_in(std::optional<std::uint32_t> format) {
   return options;
 }
 
-/// As a person gives it, in words.
+/// In words, as a user writes it.
 transport::SinkForm form_of(const Case& c) {
   transport::SinkForm form;
   form.format = wire::format_from_words(wire::format_to_words(c.params.format)).value();
@@ -64,7 +64,7 @@ class Incoming {
   CameraMessages messages_;
 };
 
-/// What comes out of the outlet of a sink.
+/// What a sink's outlet writes.
 struct Sent {
   wire::CameraConstants constants;
   wire::CameraParams params;
@@ -128,7 +128,7 @@ std::vector<Case> worked() {
   return cases;
 }
 
-/// Cameras whose lens leaves a picture: up to a tenth of barrel or pincushion by each of k1 and k2.
+/// Cameras whose lens has a picture: up to 10 % of barrel or pincushion distortion by each of k1 and k2.
 class RandomCases {
  public:
   Case next() {
@@ -174,7 +174,7 @@ TEST(RoundTrip, AsReceivedIsExactlyTheSameRecord) {
     const Incoming incoming(c, std::nullopt);
     const auto made = sent_again(c, incoming);
     ASSERT_TRUE(made);
-    // Words do not tell options that do not count, such as the axes of a matrix that is not there.
+    // Words do not contain options without effect, such as the axes of a matrix that is not included.
     auto wanted = c.params;
     wanted.format = made->params.format;
     EXPECT_EQ(made->params, wanted);

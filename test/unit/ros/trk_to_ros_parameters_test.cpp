@@ -136,7 +136,7 @@ TEST(Read, CamerasOnOneSourceMustHaveDifferentIds) {
   tree["cameras"]["right"]["id"] = 1;
   EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~cameras/left/id = (none)")));
   tree["cameras"]["right"]["source"] = "udp://:7001";
-  EXPECT_EQ(message_of(tree), "no error") << "alone on its source it needs none";
+  EXPECT_EQ(message_of(tree), "no error") << "the only camera of a source needs none";
 }
 
 TEST(Read, OnePortHasOneUrl) {
@@ -183,7 +183,7 @@ TEST(Read, ARuleIsNotCheckedOnFaultyInput) {
   tree["studio_frame"] = 3;
   tree["camera_frame"] = "studio";
   EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~studio_frame = 3: must be text")))
-      << "nobody wrote that the studio frame is studio";
+      << "the name studio of the studio frame is not written there";
 
   tree = two_cameras();
   tree["cameras"]["left"]["id"] = -1;

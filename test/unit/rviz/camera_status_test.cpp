@@ -1,4 +1,4 @@
-// What the lines of a display say in each of its conditions.
+// The status texts of a display in each of its conditions.
 #include "rviz/camera_status.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 class CameraStatusTest : public testing::Test {
  protected:
   void SetUp() override { at(1000); }
-  // Long enough after the call before that no text is held back.
+  // Long enough after the previous call, so that no text is held back.
   void at(double time) { status.begin(ros::Time(time), steady += 10); }
   std::string line(const std::string& name) const {
     const auto found = lines.find(name);
@@ -72,7 +72,7 @@ TEST_F(CameraStatusTest, ConstantsAreUnknownIfOnlyParamsArrive) {
   status.constants(good, none);
   EXPECT_EQ(line("Constants"), "");
   status.constants(none, params);
-  EXPECT_EQ(line("Constants"), "") << "there may be CameraInfo that is not asked for";
+  EXPECT_EQ(line("Constants"), "") << "there may be CameraInfo that is not subscribed to";
 }
 
 TEST_F(CameraStatusTest, TransformShowsTheReasonOfTf) {
@@ -86,11 +86,11 @@ TEST_F(CameraStatusTest, LensIsDescribedOrItsFaultShown) {
   sensor_msgs::CameraInfo info;
   info.width = info.height = 100;
   LensView lens;
-  lens.look_through(info);
+  lens.update(info);
   status.lens(lens);
   EXPECT_THAT(line("Lens"), AllOf(HasSubstr("Error: "), HasSubstr("fx 0")));
   info.K = {100, 0, 50, 0, 100, 50, 0, 0, 1};
-  lens.look_through(info);
+  lens.update(info);
   status.lens(lens);
   EXPECT_THAT(line("Lens"), HasSubstr("Ok: fx 100"));
 }

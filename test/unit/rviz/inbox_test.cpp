@@ -1,4 +1,4 @@
-// What is received while nobody draws.
+// What is received while nothing is drawn.
 #include "rviz/samples.h"
 
 #include <thread>

@@ -1,4 +1,4 @@
-// Which lens is drawn, when it is computed again, and why some cannot be drawn.
+// Which lens is drawn, when it is recomputed, and why some cannot be drawn.
 #include "rviz/lens_view.h"
 
 #include <limits>
@@ -21,7 +21,7 @@ sensor_msgs::CameraInfo pinhole() {
 TEST(LensView, OfAPinholeHasItsAngles) {
   LensView view;
   EXPECT_EQ(view.border(), nullptr);
-  EXPECT_TRUE(view.look_through(pinhole()));
+  EXPECT_TRUE(view.update(pinhole()));
   ASSERT_NE(view.border(), nullptr);
   EXPECT_NEAR(view.border()->horizontal, 90, 1e-9);
   EXPECT_EQ(view.focal_length(), 960);
@@ -32,16 +32,16 @@ TEST(LensView, OfAPinholeHasItsAngles) {
 TEST(LensView, ChangesOnlyWithTheLens) {
   LensView view;
   auto info = pinhole();
-  EXPECT_TRUE(view.look_through(info));
+  EXPECT_TRUE(view.update(info));
   info.header.stamp = ros::Time(10);
   info.header.frame_id = "elsewhere";
-  EXPECT_FALSE(view.look_through(info));
+  EXPECT_FALSE(view.update(info));
   info.K[0] = 961;
-  EXPECT_TRUE(view.look_through(info));
-  EXPECT_FALSE(view.look_through(info));
+  EXPECT_TRUE(view.update(info));
+  EXPECT_FALSE(view.update(info));
   view.forget();
   EXPECT_EQ(view.border(), nullptr);
-  EXPECT_TRUE(view.look_through(info));
+  EXPECT_TRUE(view.update(info));
 }
 
 TEST(LensView, ThatIsInvalidGivesTheReasonAndDrawsNothing) {
@@ -50,10 +50,10 @@ TEST(LensView, ThatIsInvalidGivesTheReasonAndDrawsNothing) {
   for (const double bad : {0.0, nan, infinity, -1500.0, 1e-300, 1e300}) {
     for (const std::size_t which : {0u, 4u}) {
       LensView view;
-      view.look_through(pinhole());
+      view.update(pinhole());
       auto info = pinhole();
       info.K[which] = bad;
-      EXPECT_TRUE(view.look_through(info)) << bad;
+      EXPECT_TRUE(view.update(info)) << bad;
       EXPECT_EQ(view.border(), nullptr) << bad;
       EXPECT_NE(view.fault(), "") << bad;
       EXPECT_EQ(view.text(), "");
@@ -63,7 +63,7 @@ TEST(LensView, ThatIsInvalidGivesTheReasonAndDrawsNothing) {
   LensView view;
   auto info = pinhole();
   info.K[0] = 0;
-  view.look_through(info);
+  view.update(info);
   EXPECT_THAT(view.fault(), HasSubstr("fx 0, fy 960"));
 }
 
@@ -72,15 +72,15 @@ TEST(LensView, OfAnUnknownModelIsReported) {
   auto info = pinhole();
   info.distortion_model = "equidistant";
   info.D = {0.1, 0, 0, 0};
-  EXPECT_TRUE(view.look_through(info));
+  EXPECT_TRUE(view.update(info));
   EXPECT_EQ(view.border(), nullptr);
   EXPECT_THAT(view.fault(), HasSubstr("plumb_bob"));
-  EXPECT_FALSE(view.look_through(info));
+  EXPECT_FALSE(view.update(info));
   info = pinhole();
   info.width = 0;
-  EXPECT_TRUE(view.look_through(info));
+  EXPECT_TRUE(view.update(info));
   EXPECT_THAT(view.fault(), HasSubstr("width"));
-  EXPECT_TRUE(view.look_through(pinhole()));
+  EXPECT_TRUE(view.update(pinhole()));
   EXPECT_EQ(view.fault(), "");
 }
 

@@ -101,7 +101,7 @@ TEST(Samples, ZeroStampMeansNowAndReplacesAll) {
 }
 
 TEST(Samples, AbsurdStampsDoNoHarmAndAreReplaced) {
-  ros::Time beyond;  // as it may come over the wire, not normalised
+  ros::Time beyond;  // not normalised, which is possible in a message
   beyond.sec = beyond.nsec = std::numeric_limits<std::uint32_t>::max();
   ros::Time early;
   early.nsec = 1;

@@ -1,4 +1,4 @@
-// A status is told at once when it gets another level, and seldom while only its text changes.
+// A status is shown at once when its level changes, and less often when only its text changes.
 #include "rviz/status_lines.h"
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What is written beside a camera and about it.
+// The texts about a camera.
 #include "rviz/texts.h"
 
 #include <gmock/gmock.h>

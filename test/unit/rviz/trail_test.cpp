@@ -1,4 +1,4 @@
-// Where a camera was, as far back as is wanted.
+// The past positions of a camera.
 #include "rviz/trail.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// When a writer that wakes nobody is looked for, on simulated time: writers, sleeps and costs are models of the test.
+// When a reader polls a writer that wakes no readers, in simulated time: writers, sleeps and costs are models of the
+// test.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double us = 1e3, ms = 1e6, s = 1e9;
 
-/// What a reader met that looked when it was told to, at a writer that wrote at these times (ns).
+/// The results of a reader that polled at the computed times; the writer wrote at these times (ns).
 struct Met {
   std::vector<double> lateness;  // ns, of the sets that were found
   int replaced = 0;              // written and replaced before they were seen
@@ -30,8 +31,8 @@ struct Met {
   double share() const { return cpu / (seconds * s); }
 };
 
-/// Counted from `from` on. A sleep ends 45 to 110 us late and takes 20 us of a core, as measured on a small virtual
-/// machine; a look that follows at once takes 1 us.
+/// Counted from `from` on. A sleep ends 45 to 110 us late and takes 20 us of CPU time, measured on a small virtual
+/// machine; a poll without a sleep takes 1 us.
 Met read(const std::vector<std::int64_t>& written, double from = 2 * s) {
   std::mt19937 random(1);
   std::normal_distribution<double> spread(0, 15 * us);
@@ -67,8 +68,8 @@ Met read(const std::vector<std::int64_t>& written, double from = 2 * s) {
   return met;
 }
 
-/// A writer with a clock, whose sets are `jitter` (standard deviation, ns) about their times; or one that sleeps from
-/// set to set, whose jitter adds up.
+/// A writer with a clock, whose sets have `jitter` (standard deviation, ns); or one that sleeps after every set, so
+/// that the jitter accumulates.
 enum class Keeps { clock, intervals };
 std::vector<std::int64_t> writes(double rate, double jitter, Keeps keeps, double seconds = 20) {
   std::mt19937 random(7);
@@ -146,7 +147,7 @@ TEST(Cadence, a_single_set_that_is_late_does_not_make_the_next_ones_late) {
   auto written = writes(50, 5 * us, Keeps::clock);
   for (std::size_t i = 200; i < written.size(); i += 50) written[i] += static_cast<std::int64_t>(4 * ms);
   auto met = read(written);
-  // One in fifty is late itself.
+  // One in fifty is late.
   EXPECT_LE(met.quantile(0.97), 200 * us);
   EXPECT_EQ(met.replaced, 0);
 }

@@ -1,5 +1,5 @@
-// A program of the field at a slot: it opens, writes and closes as the protocol's own sources do, in its own layout,
-// whatever the size of the segment that it meets.
+// An existing program at a slot: it opens, writes and closes like the protocol's original sources, in its layout,
+// independent of the size of an existing segment.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class FieldProgram {
   FieldProgram(const FieldProgram&) = delete;
   FieldProgram& operator=(const FieldProgram&) = delete;
 
-  /// Attaches, or makes file and segment. False: the segment there is too small, or not trk as far as it can tell.
+  /// Attaches, or creates file and segment. False: the existing segment is too small, or does not look like trk.
   bool open() {
     slot_.make_file();
     const key_t key = ::ftok(slot_.path().c_str(), 0);
@@ -42,7 +42,7 @@ class FieldProgram {
     return true;
   }
 
-  /// The last one by `connected` removes segment and file.
+  /// The last program, according to `connected`, removes segment and file.
   void close() {
     if (base_ == nullptr) return;
     const bool is_last = --connected() == 0;

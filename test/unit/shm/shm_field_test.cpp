@@ -1,4 +1,5 @@
-// The field's own programs beside ours: who may start, what a program of another generation writes, who is counted.
+// Existing programs together with this package: which may start first, what a program of another generation writes,
+// which are counted.
 #include <chrono>
 #include <functional>
 #include <string>
@@ -36,7 +37,7 @@ using Clock = std::chrono::steady_clock;
 
 const SegmentLayout& of(std::size_t size) { return *layout_of_size(size); }
 
-/// Numbers as cameras have them: none is round.
+/// Realistic numbers, none of them round.
 wire::CameraParams params(std::uint64_t counter, std::uint32_t format = wire::euler, std::uint32_t id = 0) {
   const double t = 0.013 * static_cast<double>(counter);
   wire::CameraParams p;
@@ -182,7 +183,7 @@ TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_detached_and_read_agai
   ASSERT_EQ(::pipe(has_read), 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    // What the parent has attached came along by fork().
+    // Attachments of the parent are inherited by fork().
     tracker.connected() += 1;
     tracker.close();
     if (::setuid(65534) != 0) ::_exit(98);
@@ -190,16 +191,15 @@ TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_detached_and_read_agai
     if (!receive_until(*source, [&] { return source->statistics().records > 0; })) ::_exit(no_record);
     if (::write(has_read[1], "1", 1) != 1) ::_exit(5);
     if (!receive_until(*source, [&] { return attachments(id) == 0; })) ::_exit(not_let_go);
-    if (source->statistics().waiting_for.find("no other program is attached to its segment") == std::string::npos)
-      ::_exit(3);
-    // What came while nobody was attached is read as well.
+    if (source->statistics().waiting_for.find("nobody has attached to its segment") == std::string::npos) ::_exit(3);
+    // What was written without a reader is also read.
     const bool is_read =
         receive_until(*source, [&] { return std::get<wire::CameraParams>(into.sample.record) == params(2); });
     ::_exit(is_read ? good : no_record);
   }
   EXPECT_TRUE(test::becomes_true([&] { return tracker.connected() == 2; }));
   ::close(has_read[1]);
-  // What is written while the child attaches may be old to it.
+  // Sets that are written while the child attaches may be old for it.
   EXPECT_TRUE(test::becomes_true([&] {
     tracker.write(params(1));
     pollfd answer{has_read[0], POLLIN, 0};
@@ -209,7 +209,7 @@ TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_detached_and_read_agai
   ::close(has_read[0]);
   tracker.close();
   EXPECT_TRUE(test::becomes_true([&] { return attachments(id) == 0; }));
-  EXPECT_EQ(slot.segment(), id) << "it is another user's";
+  EXPECT_EQ(slot.segment(), id) << "it belongs to another user";
   // The kernel's times are in seconds.
   std::this_thread::sleep_for(1100ms);
   ASSERT_TRUE(tracker.open());
@@ -269,7 +269,7 @@ TEST_P(Guests, nothing_is_read_that_was_never_sent) {
   const auto sent_constants = constants(guest.id);
   const auto read_all = [&](const wire::CameraParams* last) {
     for (Event event = Event::malformed; event != Event::idle;) {
-      // What is malformed is looked at less often.
+      // A malformed record is checked less often.
       event = source->receive(into, source->statistics().malformed > 0 ? 300us : 0us);
       if (event != Event::sample) continue;
       const auto* p = std::get_if<wire::CameraParams>(&into.sample.record);
@@ -284,14 +284,14 @@ TEST_P(Guests, nothing_is_read_that_was_never_sent) {
     const auto sent = params(i, guest.format, guest.id);
     program.write(sent);
     read_all(&sent);
-    // Programs that come later repeat them.
+    // Programs that start later repeat them.
     if (guest.has_constants && i == 100) program.write(sent_constants);
   }
   EXPECT_EQ(wrong, 0U);
   EXPECT_GE(right, guest.read_at_least);
   if (right == 0) {
     if (source->statistics().malformed == 0) {
-      EXPECT_THAT(source->statistics().waiting_for, HasSubstr("32-bit program")) << "it says why";
+      EXPECT_THAT(source->statistics().waiting_for, HasSubstr("32-bit program")) << "it reports the reason";
     }
     EXPECT_NE(source->statistics().state, SourceState::receiving);
   }
@@ -305,7 +305,7 @@ std::vector<Guest> guests() {
         std::uint32_t{wire::studio_y_up}, wire::camera_y_up | wire::studio_y_up,
         std::uint32_t{studio_to_camera_y_up}}) {
     for (const bool has_constants : {true, false}) {
-      // Without constants a matrix with options reads as one of a camera with a number, and is not handed out.
+      // Without constants a matrix with options looks like one with a camera id, and is not given.
       const bool is_uncertain = !has_constants && format != 0 && !wire::has(format, wire::euler);
       const std::uint64_t all_sets = has_constants ? 201 : 199;
       all.push_back({544, 528, format, 0, has_constants, is_uncertain ? 0 : all_sets});
@@ -316,7 +316,7 @@ std::vector<Guest> guests() {
         all.push_back({544, 544, format, id, has_constants, is_even ? 0 : all_sets});
         all.push_back({524, 524, format, id, has_constants, all_sets});
       }
-      // 32-bit programs look for the counters elsewhere: nothing of theirs can be read.
+      // 32-bit programs have the counters elsewhere: their records cannot be read.
       for (const std::size_t host : {std::size_t{544}, std::size_t{528}}) {
         all.push_back({host, 524, format, 3, has_constants, 0});
         all.push_back({host, 508, format, 0, has_constants, 0});
@@ -346,7 +346,7 @@ TEST_F(Field, a_slot_does_not_get_the_segment_of_another_whose_file_was_deleted)
   EXPECT_NE(slot.segment(), id);
   ASSERT_TRUE(stranger->write(params(1)));
   receive_for(*source, 50ms);
-  EXPECT_EQ(source->statistics().records, 0U) << "a record came";
+  EXPECT_EQ(source->statistics().records, 0U) << "a record was received";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What is not ours, or cannot be told apart, is left exactly as it was, and reported.
+// Foreign or ambiguous files and segments are not changed, and are reported.
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -75,7 +75,7 @@ TEST_P(Foreign, is_unchanged_and_named) {
   EXPECT_TRUE(slot.has_file());
 }
 
-// 300 is no layout's size; the others are, and begin with something else than the magic.
+// 300 is no size of a layout; the others are, but do not start with the magic number.
 INSTANTIATE_TEST_SUITE_P(Sizes, Foreign, ::testing::Values(300, 508, 524, 528, 544, 8192));
 
 class Confused : public ::testing::Test {
@@ -100,9 +100,9 @@ TEST_F(Confused, a_segment_that_is_being_created_is_waited_for_and_unchanged) {
   Reception into;
   EXPECT_EQ(source->receive(into, 0s), Event::idle);
   EXPECT_EQ(source->statistics().state, SourceState::waiting);
-  EXPECT_THAT(source->statistics().waiting_for, HasSubstr("its creator has not finished it"));
-  // The maker, this process, lives: a writer does not take over either.
-  EXPECT_THAT(refusal(url), HasSubstr("its creator has not finished it"));
+  EXPECT_THAT(source->statistics().waiting_for, HasSubstr("its maker has not finished it"));
+  // The creator, this process, exists: a writer does not take over either.
+  EXPECT_THAT(refusal(url), HasSubstr("its maker has not finished it"));
   const auto sink = endpoints::parse_sink(url)->open();
   const auto written = sink->write(wire::CameraParams{});
   ASSERT_FALSE(written);
@@ -141,7 +141,7 @@ TEST_F(Confused, a_sink_whose_slot_became_foreign_reports_no_segment) {
   EXPECT_THAT(describe(written.error()), HasSubstr("there is no segment to write to"));
   EXPECT_EQ(contents(id, 300), std::string(300, '\0'));
   slot.remove();
-  EXPECT_TRUE(sink->write(wire::CameraParams{})) << "every write looks again";
+  EXPECT_TRUE(sink->write(wire::CameraParams{})) << "every write checks again";
 }
 
 TEST_F(Confused, a_sink_reports_why_the_system_gives_it_no_segment) {
@@ -155,8 +155,8 @@ TEST_F(Confused, a_sink_reports_why_the_system_gives_it_no_segment) {
   ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().reason, SinkReason::system);
-  EXPECT_EQ(written.error().error_number, EMFILE) << "the slot's file could not be made";
-  EXPECT_TRUE(sink->write(wire::CameraParams{})) << "every write looks again";
+  EXPECT_EQ(written.error().error_number, EMFILE) << "the slot's file could not be created";
+  EXPECT_TRUE(sink->write(wire::CameraParams{})) << "every write checks again";
 }
 
 TEST(ShmFaults, key_zero_is_explained) {

@@ -1,4 +1,4 @@
-// Slots that are in nobody's order: whatever is done to them, ours look once, go on, and can be stopped.
+// Slots in arbitrary states: whatever is done to them, sources and sinks check once, continue, and can be stopped.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -34,7 +34,7 @@ using Clock = std::chrono::steady_clock;
 
 using test::params;
 
-/// The least of several times that `work` takes: what it takes by itself, on a busy machine as well.
+/// The shortest of several durations of `work`, which hardly depends on the load of the machine.
 Clock::duration least_time_of(const std::function<void()>& work) {
   auto least = Clock::duration::max();
   for (int i = 0; i < 10; ++i) {
@@ -45,7 +45,7 @@ Clock::duration least_time_of(const std::function<void()>& work) {
   return least;
 }
 
-/// Does something to the slot again and again, in a thread, until it is destroyed.
+/// Changes the slot repeatedly in a thread, until it is destroyed.
 class Attack {
  public:
   explicit Attack(std::function<void()> blow)
@@ -76,7 +76,7 @@ class Hostile : public ::testing::Test {
  protected:
   const std::string& url() const { return url_; }
 
-  /// Whatever is there, a source that waits without end is stopped at once.
+  /// In every state of the slot, a source that waits without a limit is stopped at once.
   void expect_stoppable(Source& source) {
     std::thread receiver([&source] {
       Reception received;
@@ -95,7 +95,7 @@ class Hostile : public ::testing::Test {
   Reception into;
 };
 
-// Far more than a look takes, and far less than the 200 ms that a writer may take to make a segment.
+// Far more than a check takes, and far less than the 200 ms that a writer may need to create a segment.
 constexpr auto no_waiting = 50ms;
 
 TEST_F(Hostile, a_segment_that_is_never_finished_does_not_block_a_writer) {
@@ -104,7 +104,7 @@ TEST_F(Hostile, a_segment_that_is_never_finished_does_not_block_a_writer) {
   EXPECT_LT(least_time_of([&] { EXPECT_FALSE(sink->write(params(1))); }), no_waiting);
   EXPECT_EQ(sink->write(params(1)).error().reason, transport::SinkReason::gone);
   slot.remove();
-  EXPECT_TRUE(sink->write(params(2))) << "every write looks again";
+  EXPECT_TRUE(sink->write(params(2))) << "every write checks again";
 }
 
 TEST_F(Hostile, a_slot_that_changes_all_the_time_blocks_nobody) {
@@ -125,7 +125,7 @@ TEST_F(Hostile, a_slot_that_changes_all_the_time_blocks_nobody) {
       for (int i = 12; i < 300; ++i) memory[i] = static_cast<char>(random());
       std::this_thread::sleep_for(1ms);
       ::shmdt(memory);
-    } catch (const std::runtime_error&) {  // ours was faster
+    } catch (const std::runtime_error&) {  // the code under test was faster
     }
   });
   attack.wait_for(20);
@@ -152,7 +152,7 @@ TEST_F(Hostile, a_segment_that_changes_faster_than_it_can_be_copied_is_reported_
     }
     const auto looks = static_cast<std::uint64_t>((Clock::now() - begin) / 250us);
     EXPECT_GT(events, 0U);
-    EXPECT_LE(events, looks + 1) << "one look in 250 us";
+    EXPECT_LE(events, looks + 1) << "one check in 250 us";
     EXPECT_EQ(source->statistics().state, SourceState::nothing_valid);
     expect_stoppable(*source);
   }
@@ -163,7 +163,7 @@ TEST_F(Hostile, a_segment_without_permission_is_named) {
   slot.make_segment(544, 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(98);  // root may do everything
+    if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(98);  // root has all permissions
     const auto source = open_source(url());
     const bool is_idle = source->receive(into, 0s) == Event::idle;
     const bool is_named = source->statistics().waiting_for.find("Permission denied") != std::string::npos;

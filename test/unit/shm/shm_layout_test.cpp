@@ -1,4 +1,4 @@
-// Segments byte for byte: what the field's programs left in them is read, and the same is written.
+// Segments byte for byte: contents of existing programs are read, and the same bytes are written.
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -35,7 +35,7 @@ class FieldLayout : public ::testing::TestWithParam<FieldSegment> {
   test::FreeSlot slot;
 };
 
-/// The record as it went in, but for an id where the layout has none.
+/// The same record, but without the id if the layout has none.
 template <typename Record>
 Record as_stored(Record record, const SegmentLayout& layout) {
   if (layout.record.generation == wire::Generation::document) record.id = 0;
@@ -75,7 +75,7 @@ TEST_P(FieldLayout, last_writes_are_read) {
   EXPECT_EQ(*constants, as_stored(test::constants_of(written.front()["fields"]), segment->layout()));
 
   segment->close();
-  EXPECT_EQ(std::memcmp(memory, stored.data(), stored.size()), 0) << "reading leaves every byte as it was";
+  EXPECT_EQ(std::memcmp(memory, stored.data(), stored.size()), 0) << "reading changes no byte";
   ::shmdt(memory);
 }
 

@@ -1,4 +1,4 @@
-// Several processes on one slot: fast ones, and ones that die at any moment.
+// Several processes on one slot: fast ones, and ones that are killed at any moment.
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -32,7 +32,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto deadline = 40s;
 
-/// Every field shows the counter, so that a mix of two records is known at sight.
+/// Every field contains the counter, so that a mix of two records is recognised.
 wire::CameraParams params(std::uint64_t counter) {
   const auto n = static_cast<double>(counter);
   wire::CameraParams p;
@@ -45,7 +45,7 @@ wire::CameraParams params(std::uint64_t counter) {
 
 bool is_whole(const wire::CameraParams& p) { return p == params(p.counter); }
 
-/// A process that ends with the test, whatever becomes of it.
+/// A process that ends with the test in any case.
 class Child {
  public:
   explicit Child(const std::function<int()>& work) : pid_(::fork()) {
@@ -65,7 +65,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// As kill -9.
+  /// Like kill -9.
   void end() {
     ::kill(pid_, SIGKILL);
     wait();
@@ -84,7 +84,7 @@ class Child {
 
 std::string url_of(const test::FreeSlot& slot) { return "shm:" + std::to_string(slot.number()); }
 
-/// Reads until `last` has come. 0 when all were whole and in order.
+/// Reads until `last` is received. 0 if all records were consistent and in order.
 int read_to(const std::string& url, std::uint64_t last) {
   const auto source = open_source(url);
   Reception into;
@@ -122,9 +122,10 @@ TEST(ShmProcesses, a_reader_in_another_process_gets_what_is_written) {
   EXPECT_EQ(reader.wait(), 0);
 }
 
-// The readers look without a pause, so that they meet the writer in the act; it writes until all have seen enough.
+// The readers read without a pause, so that they often read during a write; the writer continues until all have read
+// enough.
 TEST(ShmProcesses, eight_readers_of_one_fast_writer_never_see_a_torn_record) {
-  // On a machine with one core to spare a reader gets one new record each time that it is its turn.
+  // With only one free core a reader gets one new record each time it is scheduled.
   constexpr int enough = 200;
   constexpr std::uint64_t least_writes = 200'000;
   test::FreeSlot slot;
@@ -150,7 +151,7 @@ TEST(ShmProcesses, eight_readers_of_one_fast_writer_never_see_a_torn_record) {
   };
   std::vector<std::unique_ptr<Child>> readers;
   for (int i = 0; i < 8; ++i) readers.push_back(std::make_unique<Child>(look));
-  // Each reader has the writer's attachment, which came along by fork(), and its own.
+  // Each reader has the writer's attachment, inherited by fork(), and another one.
   ASSERT_TRUE(wait_for([&] { return writer->attachments() == 1 + 2 * readers.size(); }));
   const auto end = Clock::now() + deadline;
   std::uint64_t written = 0;
@@ -186,7 +187,7 @@ TEST(ShmProcesses, killed_writers_leave_complete_records_and_a_usable_slot) {
     ASSERT_EQ(received, enough) << "round " << round << ": " << source->statistics().waiting_for;
     writer.end();
   }
-  EXPECT_EQ(Segment::attach(slot.number())->connected(), 2) << "the dead do not count";
+  EXPECT_EQ(Segment::attach(slot.number())->connected(), 2) << "dead processes are not counted";
 }
 
 TEST(ShmProcesses, killed_readers_do_not_count_as_attached) {
@@ -196,7 +197,7 @@ TEST(ShmProcesses, killed_readers_do_not_count_as_attached) {
     int ready[2];
     ASSERT_EQ(::pipe(ready), 0);
     Child reader([&] {
-      // The writer's own attachment came along by fork(); it goes with the process.
+      // The writer's attachment was inherited by fork(); it ends with the process.
       const auto source = open_source(url_of(slot));
       Reception into;
       if (::write(ready[1], "x", 1) != 1) return 1;

@@ -1,4 +1,4 @@
-// Sources and sinks on a slot: who makes, follows, counts and removes a segment, and what is left alone.
+// Sources and sinks on a slot: which create, follow, count and remove a segment, and what they do not touch.
 #include <chrono>
 #include <cstring>
 #include <functional>
@@ -42,7 +42,7 @@ class Shm : public ::testing::Test {
   std::string url(const std::string& options = "") const { return "shm:" + std::to_string(slot.number()) + options; }
   const SegmentLayout& layout() const { return *layout_of(default_layout); }
 
-  /// Receives for as long as the source has something or `done` is not true.
+  /// Receives while the source has records or `done` is false.
   ::testing::AssertionResult receive_until(Source& source, const std::function<bool(const Sample&)>& done) {
     const auto end = std::chrono::steady_clock::now() + deadline;
     while (std::chrono::steady_clock::now() < end) {
@@ -56,7 +56,7 @@ class Shm : public ::testing::Test {
     const auto end = std::chrono::steady_clock::now() + deadline;
     while (!done()) {
       if (std::chrono::steady_clock::now() > end) return ::testing::AssertionFailure() << "did not happen in time";
-      if (source.receive(into, 20ms) == Event::sample) return ::testing::AssertionFailure() << "a record came";
+      if (source.receive(into, 20ms) == Event::sample) return ::testing::AssertionFailure() << "a record was received";
     }
     return ::testing::AssertionSuccess();
   }
@@ -172,7 +172,7 @@ TEST_F(Shm, connected_counts_handles_but_attachments_decide) {
   EXPECT_EQ(first->connected(), 2);
   second->close();
   EXPECT_EQ(first->connected(), 1);
-  // A process that died left its count behind.
+  // A process that died did not decrement the count.
   auto* memory = static_cast<char*>(::shmat(first->id(), nullptr, 0));
   const std::int32_t too_high = 5;
   std::memcpy(memory + layout().connected, &too_high, sizeof too_high);
@@ -209,8 +209,8 @@ TEST_F(Shm, reattaches_when_the_segment_is_recreated) {
 }
 
 TEST_F(Shm, a_slot_with_another_segment_is_followed_although_the_old_one_exists) {
-  // The file alone goes: its old segment stays, out of everybody's reach. For as long as it lives, a spare keeps its
-  // inode, and so its key, from any other slot.
+  // Only the file is removed: its old segment stays, but no program can reach it. Meanwhile a hard link reserves its
+  // inode, and therefore its key, so that no other slot gets it.
   struct Spare {
     const std::string path;
     ~Spare() { ::unlink(path.c_str()); }
@@ -246,7 +246,7 @@ TEST_F(Shm, recreate_makes_a_new_segment_when_all_others_have_detached) {
   ASSERT_TRUE(sink->write(constants()));
   ASSERT_TRUE(sink->write(params(1)));
   const int first = slot.segment();
-  EXPECT_EQ(slot.segment(), first) << "as long as there is company";
+  EXPECT_EQ(slot.segment(), first) << "as long as others are attached";
   source.reset();
   ASSERT_TRUE(sink->write(params(2)));
   const int second = slot.segment();

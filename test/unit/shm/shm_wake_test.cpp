@@ -1,4 +1,4 @@
-// Writers of this package wake who waits for a set; those of the field do not know that anybody can wait.
+// Writers of this package wake waiting readers; existing programs do not know about waiting readers.
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -45,7 +45,7 @@ using namespace std::chrono_literals;
 
 const SegmentLayout& layout() { return *layout_of(default_layout); }
 
-/// The memory of a segment as another process has it.
+/// The memory of a segment, like in another process.
 class Memory {
  public:
   explicit Memory(int id) : base_(static_cast<char*>(::shmat(id, nullptr, 0))) {}
@@ -63,7 +63,7 @@ class Memory {
   char* base_;
 };
 
-/// Takes the counters of the parameters that come, in a thread.
+/// Receives the counters of parameters in a thread.
 class Receiver {
  public:
   explicit Receiver(Source& source) : source_(source), thread_([this] { run(); }) {}
@@ -104,13 +104,13 @@ TEST_F(ShmWake, the_area_behind_a_segment_is_shared_and_empty_when_new) {
   auto segment = make();
   shmid_ds state{};
   ASSERT_EQ(::shmctl(segment.id(), IPC_STAT, &state), 0);
-  EXPECT_EQ(state.shm_segsz, 544U) << "what the field's programs ask for";
+  EXPECT_EQ(state.shm_segsz, 544U) << "the size that existing programs request";
   const Memory other(segment.id());
   EXPECT_EQ(other.announcement(), 0U);
   EXPECT_EQ(other.wake_word(), 0U);
   EXPECT_FALSE(segment.is_announced());
   ASSERT_TRUE(segment.write(params(5)));
-  EXPECT_EQ(other.announcement(), 0x77610001U) << "the mark, and the write counter";
+  EXPECT_EQ(other.announcement(), 0x77610001U) << "the mark and the write counter";
   EXPECT_TRUE(segment.is_announced());
 }
 
@@ -124,7 +124,7 @@ TEST_F(ShmWake, sets_of_existing_programs_are_not_announced) {
     ASSERT_TRUE(segment.write(params(i)));
     ASSERT_TRUE(segment.is_announced());
   }
-  // Until the write counter comes round.
+  // Until the write counter wraps.
   for (std::uint64_t i = 1; i < 65500; ++i) {
     field.write(params(i));
     ASSERT_FALSE(segment.is_announced()) << i;
@@ -141,7 +141,7 @@ TEST_F(ShmWake, a_write_wakes_once_and_only_waiting_readers) {
   const std::uint32_t after = other.wake_word();
   EXPECT_NE(after, waiter.value);
   ASSERT_TRUE(segment.write(params(2)));
-  EXPECT_EQ(other.wake_word(), after) << "nobody waits any more";
+  EXPECT_EQ(other.wake_word(), after) << "no reader waits any more";
   EXPECT_NE(segment.wait_for_write().value, waiter.value);
   ASSERT_TRUE(segment.write(test::constants()));
   EXPECT_NE(other.wake_word(), after) << "constants wake as well";
@@ -163,16 +163,16 @@ TEST_F(ShmWake, a_write_is_no_system_call_if_nobody_waits) {
         is_permitted);
   };
   const auto alone = calls_of_100(false);
-  if (!is_permitted) GTEST_SKIP() << "no process may be traced here";
+  if (!is_permitted) GTEST_SKIP() << "tracing processes is not permitted here";
   EXPECT_EQ(alone, SystemCalls{});
-  EXPECT_EQ(calls_of_100(true), (SystemCalls{{SYS_futex, 1}})) << "who died while it waited costs one call";
+  EXPECT_EQ(calls_of_100(true), (SystemCalls{{SYS_futex, 1}})) << "a reader that died while it waited costs one call";
 }
 
 TEST_F(ShmWake, each_set_of_our_writer_is_received) {
   const auto sink = open_sink(url());
   const auto source = open_source(url());
   Receiver receiver(*source);
-  // By looks alone, ten a second, this would take half a minute.
+  // With polling only, ten times a second, this would take half a minute.
   for (std::uint64_t i = 1; i <= 300; ++i) {
     ASSERT_TRUE(sink->write(params(i)));
     ASSERT_TRUE(receiver.gets(i)) << i;
@@ -215,7 +215,7 @@ TEST_F(ShmWake, a_reader_asleep_is_stopped) {
   }
 }
 
-/// As on a Linux before 5.16.
+/// Like on Linux before 5.16.
 bool forbid_futex_waitv() {
   std::array<sock_filter, 4> program{{
       {BPF_LD | BPF_W | BPF_ABS, 0, 0, offsetof(seccomp_data, nr)},
@@ -246,7 +246,7 @@ TEST_F(ShmWake, if_the_system_cannot_wait_for_two_things_the_reader_polls) {
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFEXITED(status));
-  if (WEXITSTATUS(status) == 2) GTEST_SKIP() << "no system call may be forbidden here";
+  if (WEXITSTATUS(status) == 2) GTEST_SKIP() << "system calls cannot be blocked here";
   EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 

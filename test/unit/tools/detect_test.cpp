@@ -1,4 +1,4 @@
-// trk detect, as its users run it.
+// trk detect, run like a user does.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// Does it a hundred times a second while it lives.
+/// Repeats an action a hundred times a second until it is destroyed.
 class Repeatedly {
  public:
   explicit Repeatedly(std::function<void(std::uint64_t round)> act)
@@ -144,7 +144,7 @@ TEST(Detect, TheReadingThatAcceptsMoreIsUsed) {
   ASSERT_EQ(mostly_wrong.size(), 1u);
   EXPECT_EQ(mostly_wrong.begin()->first, "?checksum=lenient");
   EXPECT_THAT(mostly_wrong.begin()->second.at("doubts").dump(), Not(HasSubstr("also sends")))
-      << "the lenient way reads the others as well";
+      << "freed with checksum=lenient also reads the others";
   const auto mostly_right = heads_found(5, false);
   ASSERT_EQ(mostly_right.size(), 1u);
   EXPECT_EQ(mostly_right.begin()->first, "");
@@ -164,7 +164,7 @@ TEST(Detect, AMessageThatCannotBeReadIsNamedWithItsProtocol) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("Free-D with a fault: Free-D message D2"), HasSubstr("nothing was found")));
 }
 
-/// With a network of its own, since the port is a real one.
+/// In a private network, because it uses the standard port.
 TEST(Detect, FindsGroupsAmongTheUsualPorts) {
   std::optional<test::NetworkNamespace> network;
   try {

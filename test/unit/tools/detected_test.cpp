@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// A camera that sent two sets a second apart.
+/// A camera that has sent two sets, one second apart.
 Detected found(const wire::CameraParams& first, const wire::CameraParams& last, bool with_constants = true) {
   using std::chrono::seconds;
   const test::MemoryFeed feed;

@@ -1,4 +1,4 @@
-// Free-D through the program, as its users run it.
+// Free-D with the trk program, run like a user does.
 #include <csignal>
 #include <fstream>
 #include <iterator>

@@ -1,4 +1,4 @@
-// What trk says of itself: version, help, manual page, completions, and errors of the command line.
+// The version, help, manual page, completions and command line errors of trk.
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -45,7 +45,7 @@ std::string output_of(const std::vector<std::string>& words) {
   return result.out;
 }
 
-/// A script in a file that lives as long as it.
+/// A script in a file, which is removed with it.
 class Script {
  public:
   explicit Script(const std::string& text) { std::ofstream(path) << text; }
@@ -100,7 +100,7 @@ TEST(TrkRelay, EndsAfterSeconds) {
 TEST(TrkManual, IsAPageWithoutWarnings) {
   const Script page(output_of({"manual"}));
   EXPECT_THAT(output_of({"manual"}), AllOf(HasSubstr(".TH TRK 1"), HasSubstr("trk_bridge " TRK_BRIDGE_VERSION)));
-  if (::access("/usr/bin/man", X_OK) != 0) GTEST_SKIP() << "there is no man";
+  if (::access("/usr/bin/man", X_OK) != 0) GTEST_SKIP() << "man is not installed";
   const auto shown = result_of({"/usr/bin/env", "LC_ALL=C.UTF-8", "MANWIDTH=100", "/usr/bin/man", "--warnings", "-E",
                                 "UTF-8", "-P", "cat", "-l", page.path});
   EXPECT_EQ(shown.code, 0);
@@ -109,7 +109,7 @@ TEST(TrkManual, IsAPageWithoutWarnings) {
                                HasSubstr("OPTIONS OF FREED, READING"), HasSubstr("checksum="), Not(HasSubstr("\\f"))));
 }
 
-/// What bash offers for the last of the words.
+/// The completions of bash for the last word.
 std::string offered(const std::string& words) {
   static const Script script(output_of({"completion", "bash"}));
   const auto result =
@@ -137,7 +137,7 @@ TEST(TrkCompletion, OfBashOffersCommandsOptionsAndValues) {
 }
 
 TEST(TrkCompletion, OfZshCompletesWhatIsTyped) {
-  if (::access("/usr/bin/zsh", X_OK) != 0) GTEST_SKIP() << "there is no zsh";
+  if (::access("/usr/bin/zsh", X_OK) != 0) GTEST_SKIP() << "zsh is not installed";
   const Script script(output_of({"completion", "zsh"}));
   const auto result = result_of({"/usr/bin/zsh", "-f", ZSH_SCRIPT, script.path});
   EXPECT_EQ(result.out, "dump\ndump --json\nrelay --preset\nrelay --preset pixotope\ndump opentrackio://\n")

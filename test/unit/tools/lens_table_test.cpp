@@ -23,7 +23,7 @@ std::size_t count_of(const std::string& what, const std::string& text) {
 
 TEST(LensReport, DescribesATable) {
   // 9.6 mm of chip over 4.8 mm are 90 degrees, over 48 mm 2 * atan(0.1) = 11.4212 degrees. At 4.8 mm, k1 = 0.001 moves
-  // by 0.001 * 4.8^2 = 2.304 %.
+  // points by 0.001 * 4.8^2 = 2.304 %.
   EXPECT_THAT(
       lines_of(table_of(R"(
 constants: {image_width: 1920, image_height: 1080, chip_width: 9.6, chip_height: 5.4}
@@ -59,7 +59,7 @@ TEST(LensPlot, DrawsEveryPointAndCurve) {
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   EXPECT_THAT(svg, Not(HasSubstr("inf")));
   const std::string flat = to_svg(table_of("points: [{zoom: 0, focal_length: 8}, {zoom: 1, focal_length: 9}]"), "");
-  EXPECT_THAT(flat, Not(HasSubstr("nan"))) << "centre shift and distortion are 0 all over";
+  EXPECT_THAT(flat, Not(HasSubstr("nan"))) << "centre shift and distortion are 0 everywhere";
   EXPECT_THAT(flat, Not(HasSubstr("focus distance")));
 }
 

@@ -1,4 +1,4 @@
-// `trk presets` and `trk relay --preset` as their users run them.
+// `trk presets` and `trk relay --preset`, run like a user does.
 #include <csignal>
 #include <map>
 #include <string>
@@ -47,7 +47,7 @@ TEST(TrkPresets, AreJsonForPrograms) {
   EXPECT_EQ(presets.wait(), 0);
 }
 
-/// What a receiver on the loopback gets from constants and parameters of camera 3.
+/// What a receiver on the loopback receives for constants and parameters of camera 3.
 struct Received {
   wire::CameraConstants constants;
   wire::CameraParams params;
@@ -85,7 +85,7 @@ TEST(TrkRelay, SendsAReceiverTheFormatOfItsPreset) {
   EXPECT_DOUBLE_EQ(received.params.matrix[12], 1.5);
   EXPECT_DOUBLE_EQ(received.params.matrix[13], 1.75);
   EXPECT_DOUBLE_EQ(received.params.matrix[14], 2);
-  // 2 atan(6.6 / (2 * 42)) in degrees: the whole chip, for there are no blanks.
+  // 2 atan(6.6 / (2 * 42)) in degrees: the complete chip, because there are no blanks.
   EXPECT_NEAR(received.params.fov, 8.985163, 1e-6);
 }
 

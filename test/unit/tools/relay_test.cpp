@@ -200,7 +200,7 @@ TEST_F(RelayTest, InvalidConstantsInvalidateEarlierOnes) {
   add_sink();
   EXPECT_EQ(run(form_of(wire::euler)), cli::exit_failed);
   const auto records = control.records();
-  EXPECT_EQ(records.size(), 1u) << "the first constants only: what came after them made them invalid";
+  EXPECT_EQ(records.size(), 1u) << "only the first constants: the following ones are invalid";
 }
 
 TEST_F(RelayTest, ASinkThatRefusesDoesNotAffectOthers) {
@@ -238,7 +238,7 @@ TEST_F(RelayTest, EverySinkHasItsOwnForm) {
   EXPECT_NEAR(other.params()[0].fov, 2 * std::atan(8.8 / 2 / 42) * 180 / M_PI, 1e-9);
 }
 
-/// Over sockets: x is when a set was sent, in s.
+/// Over sockets: x is the time at which a set was sent, in s.
 TEST_F(RelayTest, ADelayedSinkGetsTheDelayedCamera) {
   const auto seconds_now = [] { return static_cast<double>(base::wall_now() % 1'000'000'000'000) / 1e9; };
   const test::PlainSocket tracker, receiver;
@@ -285,7 +285,7 @@ TEST_F(RelayTest, ADelayedSinkGetsTheDelayedCamera) {
   }
   tracking.join();
   relaying.join();
-  EXPECT_EQ(x, last_x) << "what was still to come at the end was sent";
+  EXPECT_EQ(x, last_x) << "records that were still delayed at the end were sent";
   EXPECT_GT(counter, sets / 2);
   EXPECT_LT(least_age, 0.06);
   EXPECT_THAT(err.str(), testing::ContainsRegex("margin [0-9.]+ fields, negative [0-9]+ times of [0-9]+, age 4"));
@@ -308,7 +308,7 @@ TEST_F(RelayTest, ASlowSinkDoesNotSlowDownOthers) {
   add(test::endpoint_of(slow, transport::Blocking::storage, {}, "slow disk"));
   add_sink();
   for (std::uint64_t counter = 1; counter <= 100; ++counter) feed.put(test::params(counter));
-  // Ends once the other sink has everything, which it would never have if it waited.
+  // Ends when the other sink has everything; that never happens if it waits.
   std::thread watch([&] {
     EXPECT_TRUE(control.has_written(100));
     EXPECT_EQ(slow.count(), 0u);
@@ -316,7 +316,7 @@ TEST_F(RelayTest, ASlowSinkDoesNotSlowDownOthers) {
   });
   EXPECT_EQ(run(), cli::exit_good) << err.str();
   watch.join();
-  EXPECT_EQ(slow.count(), 100u) << "what is queued is written in the end";
+  EXPECT_EQ(slow.count(), 100u) << "queued records are written at the end";
 }
 
 TEST_F(RelayTest, ARecordingThatCannotKeepUpIsAFailure) {

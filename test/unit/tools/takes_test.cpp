@@ -46,13 +46,13 @@ TEST(Takes, ThreeFormatsAreOneCamera) {
   }
 }
 
-/// What a program wrote to standard error, and its exit code.
+/// A program's standard error and exit code.
 struct Outcome {
   std::string err;
   int exit_code;
 };
 
-/// Of those that read a take to its end; `trk relay` writes `copy`.
+/// Of the programs that read a take to its end; `trk relay` writes `copy`.
 std::vector<Outcome> dump_and_relay(const std::string& take, const std::string& copy) {
   const std::string source = "file:" + take + "?speed=0";
   std::vector<Outcome> outcomes;

@@ -1,4 +1,4 @@
-// The programs as their users run them.
+// The programs, run like a user does.
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -83,7 +83,7 @@ TEST(TrkDump, EndsOnSigintWithASummary) {
   const test::PlainSocket tracker;
   for (const std::uint64_t counter : {1u, 2u, 5u}) {
     tracker.send(test::datagram(test::params(counter, 7)), "127.0.0.1", port);
-    ASSERT_TRUE(dump.out_line()) << "each line comes at once, also into a pipe";
+    ASSERT_TRUE(dump.out_line()) << "each line is written at once, also into a pipe";
   }
   tracker.send("no record", "127.0.0.1", port);
   EXPECT_THAT(dump.err_line().value_or(""),
@@ -138,14 +138,14 @@ class TrkRecording : public testing::Test {
   void send_fields(std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i) tracker.send(test::datagram(test::params(++sent)), "127.0.0.1", port);
   }
-  /// Waits until as many are in the file.
+  /// Waits until the file contains this many.
   testing::AssertionResult has_fields(const std::string& file, std::uint64_t count) const {
     const auto end = std::chrono::steady_clock::now() + test::deadline;
     while (std::chrono::steady_clock::now() < end) {
       try {
         if (file::read_take(file).params.size() >= count) return testing::AssertionSuccess();
       } catch (const transport::TransportError&) {
-        // It has not begun yet.
+        // It has not started yet.
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
@@ -218,7 +218,7 @@ TEST_F(TrkRecording, AFifoWithoutReaderBlocksNobody) {
   const test::PlainSocket receiver;
   ASSERT_NO_FATAL_FAILURE(
       start({"file:" + fifo, "udp://127.0.0.1:" + std::to_string(receiver.port()) + "?constants_period=0"}));
-  // More than the pipe takes.
+  // More than the pipe can hold.
   for (int i = 0; i < 2000; ++i) {
     send_fields(1);
     std::optional<std::string> datagram;
@@ -247,7 +247,7 @@ TEST(TrkRelay, ClosesAFileProperlyOnSigterm) {
   tracker.send(test::datagram(test::constants()), "127.0.0.1", port);
   for (std::uint64_t counter = 1; counter <= 3; ++counter)
     tracker.send(test::datagram(test::params(counter)), "127.0.0.1", port);
-  // A malformed record is reported after everything before it was written.
+  // A malformed record is reported after all records before it were written.
   tracker.send("no record", "127.0.0.1", port);
   ASSERT_THAT(relay.err_line().value_or(""), HasSubstr("malformed"));
   relay.signal(SIGTERM);

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A source that has met what the test says.
+/// A source with the counts that the test sets.
 class Scripted final : public CountedSource {
  public:
   Scripted() : CountedSource("scripted") {}
@@ -98,7 +98,8 @@ TEST(CountedSource, StopHasPriorityOverEveryEnd) {
   source.ended();
   source.stop();
   EXPECT_EQ(source.final_event(), Event::stopped);
-  EXPECT_EQ(state_of(source), SourceState::ended) << "stopping is the reader's wish, no state of the source";
+  EXPECT_EQ(state_of(source), SourceState::ended)
+      << "stopping is requested by the reader and is no state of the source";
 }
 
 TEST(CountedSource, UnknownFormatBitsAreOfParametersOnly) {
@@ -138,7 +139,7 @@ TEST(CountedSource, AsAReaderOfASourceSeesIt) {
   EXPECT_EQ(state_of(*source), SourceState::receiving);
   ASSERT_EQ(test::next(*source, reception), Event::failed);
   feed.put(test::params(2));
-  EXPECT_EQ(test::next(*source, reception), Event::failed) << "whatever comes";
+  EXPECT_EQ(test::next(*source, reception), Event::failed) << "whatever follows";
   EXPECT_THAT(source->statistics().error, HasSubstr("memory: "));
 }
 

@@ -1,4 +1,4 @@
-// A sender that never pauses and gives nothing: a wait and stop() end receive() all the same.
+// A sender that never pauses and sends nothing useful: a time limit and stop() still end receive().
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
@@ -20,8 +20,8 @@
 
 namespace {
 
-/// While set, every datagram that is read has come from 127.0.0.6, and there is always a next one. A real sender cannot
-/// be relied on to be faster than its receiver.
+/// While set, every datagram that is read is from 127.0.0.6, and there is always another one. A real sender is not
+/// always faster than its receiver.
 std::atomic<bool> is_flooded{false};
 std::atomic<std::uint64_t> batches{0};  // read of the flood
 
@@ -54,7 +54,7 @@ class Silent final : public Decoder {
   Next next(Sample&, Fault&) noexcept override { return Next::none; }
 };
 
-/// Of the flood everything is refused, or nothing, and then nothing in it is a sample.
+/// The filter drops the complete flood, or nothing; then no datagram of it contains a sample.
 class DatagramFloodTest : public testing::TestWithParam<const char*> {
  protected:
   ~DatagramFloodTest() override { is_flooded = false; }
@@ -63,7 +63,7 @@ class DatagramFloodTest : public testing::TestWithParam<const char*> {
   std::future<Event> receive(std::chrono::nanoseconds wait) {
     return std::async(std::launch::async, [this, wait] { return source->receive(reception, wait); });
   }
-  /// What `receiving` gives; `malformed`, which nothing here is, when it does not end.
+  /// The result of `receiving`; `malformed`, which does not occur here, if it does not end.
   Event event_of(std::future<Event> receiving) {
     const bool has_ended = receiving.wait_for(test::deadline) == std::future_status::ready;
     is_flooded = false;

@@ -1,4 +1,4 @@
-// A sink over a small protocol of this test: what one record may become, and constants that are repeated.
+// A sink with a small test protocol: a record may become several datagrams or none; constants are repeated.
 #include "transport/datagram.h"
 
 #include <cerrno>
@@ -16,10 +16,10 @@ namespace {
 
 using test::PlainSocket;
 
-/// Larger than a datagram may be: the system refuses to send it.
+/// Too large for a datagram: the system refuses to send it.
 const std::string too_large(70'000, 'x');
 
-/// What a record becomes, one string a datagram.
+/// The datagrams of a record, one string each.
 struct Script {
   std::deque<std::string> params{"params"}, constants{"constants"};
   bool refuses_constants = false;
@@ -60,7 +60,8 @@ class DatagramSinkTest : public testing::Test {
     settings.constants_period = constants_period;
     return open_datagram_sink(settings, std::make_unique<Scripted>(script));
   }
-  /// Of the next datagram; "nothing" when none is there. On the loopback one is there when sending it returns.
+  /// The text of the next datagram; "nothing" if there is none. On the loopback a datagram has arrived when sending
+  /// returns.
   std::string next() { return receiver.receive(std::chrono::milliseconds(0)).value_or("nothing"); }
 
   Script script;
@@ -104,7 +105,7 @@ TEST_F(DatagramSinkTest, ADatagramThatIsNotSentFailsItsRecordOnly) {
 
 TEST_F(DatagramSinkTest, AllDatagramsOfConstantsAreRepeated) {
   script.constants = {"first half", "second half"};
-  // A period so short that it has passed at every write.
+  // A period so short that every write is later.
   const auto sink = open(1e-9);
   ASSERT_TRUE(sink->write(test::constants()));
   ASSERT_TRUE(sink->write(test::params(1)));
@@ -125,7 +126,7 @@ TEST_F(DatagramSinkTest, ConstantsThatWereNotSentAreSentWithTheNextParameters) {
   EXPECT_EQ(next(), "constants");
   EXPECT_EQ(next(), "params");
   ASSERT_TRUE(sink->write(test::params(2)));
-  EXPECT_EQ(next(), "params") << "their period has just begun";
+  EXPECT_EQ(next(), "params") << "their period has just started";
   EXPECT_EQ(sink->statistics().constants, 1u);
 }
 
@@ -161,7 +162,7 @@ TEST_F(DatagramSinkTest, WithoutAPeriodConstantsAreSentOnlyWhenWritten) {
   EXPECT_FALSE(sink->write(test::constants()));
   script.constants = {"constants"};
   ASSERT_TRUE(sink->write(test::params(1)));
-  EXPECT_EQ(next(), "params") << "writing them again is the caller's matter";
+  EXPECT_EQ(next(), "params") << "the caller decides whether to write them again";
   ASSERT_TRUE(sink->write(test::constants()));
   EXPECT_EQ(next(), "constants");
   ASSERT_TRUE(sink->write(test::constants()));

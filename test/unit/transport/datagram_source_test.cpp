@@ -1,4 +1,4 @@
-// A source over a small protocol of this test: what one datagram may give.
+// A source with a small test protocol: the possible results of a datagram.
 #include "transport/datagram.h"
 
 #include <string>
@@ -24,7 +24,7 @@ std::string describe_letter(const Fault& fault) {
   return std::string("letter ") + static_cast<char>(fault.code()) + " at " + std::to_string(fault.field());
 }
 
-/// A digit is a sample with that counter, a blank is nothing, and everything else a fault.
+/// A digit is a sample with that counter, a blank is ignored, everything else is a fault.
 class Digits final : public Decoder {
  public:
   explicit Digits(std::vector<std::string>& begun) : begun_(begun) {}
@@ -76,7 +76,7 @@ TEST_F(DatagramSourceTest, OneSamplePerDatagram) {
   ASSERT_EQ(next(*source, reception), Event::sample);
   EXPECT_EQ(std::get<wire::CameraParams>(reception.sample.record).counter, 7u);
   EXPECT_STREQ(reception.sample.origin, "digits");
-  EXPECT_FALSE(reception.sample.has_lens) << "as the decoder said";
+  EXPECT_FALSE(reception.sample.has_lens) << "as the decoder reported";
   EXPECT_EQ(to_string(reception.sample.sender), "127.0.0.5:" + std::to_string(tracker.port()));
   EXPECT_EQ(source->receive(reception, no_wait), Event::idle);
 }
@@ -89,7 +89,7 @@ TEST_F(DatagramSourceTest, SeveralSamplesPerDatagramShareArrivalAndSender) {
   for (std::uint64_t counter = 1; counter <= 3; ++counter) {
     reception.sample.sender = {};
     reception.sample.arrival = 0;
-    ASSERT_EQ(source->receive(reception, no_wait), Event::sample) << "what is there needs no wait";
+    ASSERT_EQ(source->receive(reception, no_wait), Event::sample) << "available records need no wait";
     EXPECT_EQ(std::get<wire::CameraParams>(reception.sample.record).counter, counter);
     EXPECT_EQ(reception.sample.sender.number, tracker.port());
     if (counter == 1) arrival = reception.sample.arrival;

@@ -99,7 +99,7 @@ TEST(Memory, TestsMayPutAnythingInTheQueue) {
   ASSERT_EQ(next(*source, reception), Event::sample);
   EXPECT_EQ(reception.sample.arrival, 34);
   EXPECT_EQ(next(*source, reception), Event::ended);
-  EXPECT_EQ(next(*source, reception), Event::ended) << "an end stays";
+  EXPECT_EQ(next(*source, reception), Event::ended) << "an end remains";
   EXPECT_EQ(source->statistics().state, SourceState::ended);
 }
 

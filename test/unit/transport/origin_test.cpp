@@ -35,7 +35,7 @@ TEST(Origin, EveryLayoutHasItsOwnStaticText) {
           const char* const text = origin_of(form, guessed);
           EXPECT_TRUE(texts.insert(text).second) << text;
           EXPECT_EQ(origin_of(form, guessed), text) << "the same bytes each time";
-          // What is shown can be given as it is: layout=document_i386_be.
+          // The text can be used as an option: layout=document_i386_be.
           const std::string word = std::string(text).substr(7, std::string(text).find(',') - 7);
           const auto choice = wire::layout_choice_from_word(word);
           ASSERT_TRUE(choice) << word;

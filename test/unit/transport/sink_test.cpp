@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Answers what the test says, and counts how often it was asked.
+/// Returns what the test sets, and counts the calls.
 class Scripted final : public Sink {
  public:
   std::string name() const override { return "scripted"; }
@@ -79,7 +79,7 @@ TEST(Sink, KnowsTheTimeOfTheParametersThatItWrites) {
 TEST(Sink, TheSameConstantsAgainAreWrittenAgain) {
   Scripted sink;
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(sink.write(test::constants(720)));
-  EXPECT_EQ(sink.puts, 3) << "whether they are new is the caller's matter";
+  EXPECT_EQ(sink.puts, 3) << "the caller decides whether they are new";
   EXPECT_EQ(sink.statistics().constants, 3u);
 }
 
@@ -111,7 +111,7 @@ TEST(Sink, ACloseThatFailsIsAnErrorOnce) {
   EXPECT_EQ(sink.statistics().errors, 1u);
   EXPECT_TRUE(sink.close());
   EXPECT_EQ(sink.statistics().errors, 1u);
-  EXPECT_EQ(sink.write(test::params(1)).error().reason, SinkReason::closed) << "it is closed all the same";
+  EXPECT_EQ(sink.write(test::params(1)).error().reason, SinkReason::closed) << "it is closed nevertheless";
 }
 
 TEST(SinkFault, EveryReasonHasItsOwnText) {

@@ -13,7 +13,7 @@ TEST(Url, HasASchemeAPlaceAndOptionsInOrder) {
   const auto url = split_url("udp://[fe80::1%25eth0]:7000?allow=a,b&ttl=3&name=x%26y%3dz&empty=");
   ASSERT_TRUE(url) << url.error();
   EXPECT_EQ(url->scheme, "udp");
-  EXPECT_EQ(url->place, "//[fe80::1%25eth0]:7000") << "it is the scheme's to decode";
+  EXPECT_EQ(url->place, "//[fe80::1%25eth0]:7000") << "the scheme decodes it";
   ASSERT_EQ(url->options.size(), 4u);
   EXPECT_EQ(url->options[0].key, "allow");
   EXPECT_EQ(url->options[0].value, "a,b");

@@ -1,4 +1,4 @@
-// While records come and go, nothing is allocated.
+// Receiving and sending records allocates nothing.
 #include <gtest/gtest.h>
 
 #include <string>

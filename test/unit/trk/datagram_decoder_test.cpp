@@ -20,7 +20,7 @@ Sender sender(std::uint32_t port) { return {SenderKind::ipv4, {192, 0, 2, 7}, po
 constexpr wire::WireForm document{wire::Encoding::binary, {wire::Generation::document}};
 constexpr wire::WireForm identified{wire::Encoding::binary, {wire::Generation::identified}};
 
-/// A matrix that both generations read well: the id of one is the format of the other.
+/// A matrix that is valid in both generations: the id of one is the format of the other.
 std::string ambiguous() {
   wire::CameraParams p;
   p.matrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 2, 1, 1};
@@ -29,7 +29,7 @@ std::string ambiguous() {
   return test::datagram(p, identified);
 }
 
-/// The first of what the datagram gives; all of what it may give is one.
+/// The first result of the datagram; there may be only one.
 Next first_of(DatagramDecoder& decoder, const std::string& datagram, const Sender& from, Sample& sample, Fault& fault) {
   decoder.begin(datagram, from);
   const Next next = decoder.next(sample, fault);
@@ -39,7 +39,7 @@ Next first_of(DatagramDecoder& decoder, const std::string& datagram, const Sende
   return next;
 }
 
-/// How the datagram was encoded; its fault when it is not good.
+/// The encoding of the datagram, or its fault.
 std::string origin_of(DatagramDecoder& decoder, const std::string& datagram, const Sender& from) {
   Sample sample;
   Fault fault;
@@ -50,7 +50,7 @@ TEST(DatagramDecoder, OneSamplePerDatagram) {
   DatagramDecoder decoder({});
   Sample sample;
   Fault fault;
-  EXPECT_EQ(decoder.next(sample, fault), Next::none) << "nothing was begun";
+  EXPECT_EQ(decoder.next(sample, fault), Next::none) << "nothing was started";
   sample.has_counter = sample.has_lens = false;
   sample.sample_time = 5;
   sample.time_code = base::CountedTimeCode{};
@@ -64,7 +64,7 @@ TEST(DatagramDecoder, OneSamplePerDatagram) {
   EXPECT_EQ(sample.encoders, transport::LensEncoders{});
   EXPECT_STREQ(sample.doubt, "");
   EXPECT_FALSE(sample.sample_time || sample.time_code) << "trk has no time";
-  EXPECT_EQ(sample.arrival, 7) << "it is the socket's to know";
+  EXPECT_EQ(sample.arrival, 7) << "only the socket knows it";
 }
 
 TEST(DatagramDecoder, AFaultHasAReason) {
@@ -103,7 +103,7 @@ TEST(DatagramDecoder, TheSenderThatIsSilentLongestIsReplaced) {
   }
   EXPECT_EQ(origin_of(decoder, ambiguous(), sender(0)), "binary document_lp64");
   ASSERT_EQ(origin_of(decoder, test::datagram(test::constants(), document), sender(1000)), "binary document_lp64");
-  EXPECT_EQ(origin_of(decoder, ambiguous(), sender(0)), "binary document_lp64") << "it was heard after 1";
+  EXPECT_EQ(origin_of(decoder, ambiguous(), sender(0)), "binary document_lp64") << "it was received after 1";
   EXPECT_EQ(origin_of(decoder, ambiguous(), sender(1000)), "binary document_lp64");
   EXPECT_EQ(origin_of(decoder, ambiguous(), sender(1)), "binary identified_lp64, layout guessed") << "forgotten";
 }

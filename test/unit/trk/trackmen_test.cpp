@@ -17,10 +17,10 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Worked out by hand, all little-endian: magic 0x544D4531; four bytes that nobody knows; counter 0x01020304; then the
-/// doubles x 1.5, y -2, z 1.75, pan 30, tilt -5, roll 0.25, horizontal angle of view 90, centre 0.5 and -0.25 mm,
-/// k1 0.0009765625 (2^-10), k2 -2^-20, focus 4.5 m, chip 9.5 by 5.5 mm. A double is sign, 11 bits of exponent + 1023,
-/// 52 of mantissa: 1.5 = 1.1b * 2^0 = 3FF8..., 30 = 1.111b * 2^4 = 403E..., 90 = 1.01101b * 2^6 = 40568...
+/// Worked out by hand, all little-endian: magic 0x544D4531; four unknown bytes; counter 0x01020304; then the doubles x
+/// 1.5, y -2, z 1.75, pan 30, tilt -5, roll 0.25, horizontal angle of view 90, centre 0.5 and -0.25 mm, k1 0.0009765625
+/// (2^-10), k2 -2^-20, focus 4.5 m, chip 9.5 by 5.5 mm. A double is sign, 11 bits of exponent + 1023, 52 of mantissa:
+/// 1.5 = 1.1b * 2^0 = 3FF8..., 30 = 1.111b * 2^4 = 403E..., 90 = 1.01101b * 2^6 = 40568...
 std::string packet() {
   return test::from_hex(
       "31454d54"

@@ -41,7 +41,7 @@ TEST(UdpSourceAndKernel, CountsWhatTheKernelDropped) {
   EXPECT_EQ(source->statistics().kernel_drops, sent - received);
 }
 
-/// Sends `fields` of 256 cameras back to back, after their constants.
+/// Sends `fields` of 256 cameras without pauses, after their constants.
 std::uint64_t send_256_cameras(std::uint16_t port, int fields) {
   const PlainSocket tracker;
   std::uint64_t sent = 0;
@@ -126,7 +126,7 @@ TEST(UdpSourceAndKernel, OneSystemCallPerSample) {
   bool is_permitted = true;
   const auto one_by_one =
       calls_of_100([](std::uint64_t i, const auto& send) { send(i); }, nothing_beside, is_permitted);
-  if (!is_permitted) GTEST_SKIP() << "no process may be traced here";
+  if (!is_permitted) GTEST_SKIP() << "tracing processes is not permitted here";
   EXPECT_EQ(one_by_one, (SystemCalls{{SYS_sendto, 100}, {SYS_recvmmsg, 100}}));
 
   const auto at_once = calls_of_100(
@@ -136,7 +136,7 @@ TEST(UdpSourceAndKernel, OneSystemCallPerSample) {
       nothing_beside, is_permitted);
   ASSERT_TRUE(at_once.has_value());
   EXPECT_EQ(at_once->at(SYS_sendto), 100);
-  EXPECT_LE(test::total(*at_once), 100 + 10) << "datagrams that are there are taken many at a time";
+  EXPECT_LE(test::total(*at_once), 100 + 10) << "waiting datagrams are received many at a time";
 
   const auto waited_for = calls_of_100([](std::uint64_t, const auto&) {},
                                        [](const auto& send) {

@@ -38,7 +38,7 @@ TEST(UdpMulticast, ReadersOfAGroupShareThePort) {
     EXPECT_EQ(test::next_counter(*one), i);
     EXPECT_EQ(test::next_counter(*other), i);
   }
-  // Whatever the stranger was to hear would have been there before its own group's.
+  // A datagram for the other group would have arrived before this one.
   const auto own = open_sink(place("239.255.77.12", *one, through + "&ttl=0"));
   ASSERT_TRUE(own->write(test::params(99)));
   EXPECT_EQ(test::next_counter(*stranger), 99u);
@@ -67,7 +67,7 @@ TEST(UdpMulticast, AReaderWithoutGroupKeepsItsPort) {
   EXPECT_NO_THROW((void)open_source(place("127.0.0.1", *group, ""))) << "another address is another socket";
 }
 
-/// An interface that is up, can do multicast and has an IPv6 address; empty when there is none.
+/// An interface that is up, has multicast and an IPv6 address; empty if there is none.
 std::string ipv6_interface() {
   ifaddrs* list = nullptr;
   if (::getifaddrs(&list) != 0) return {};

@@ -1,5 +1,5 @@
-// Interfaces, addresses and routes that go and come, in network namespaces of the test's own: whatever happens, records
-// come through again by themselves.
+// Interfaces, addresses and routes that are removed and added, in private network namespaces: after every event,
+// records are received again automatically.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <net/if.h>
@@ -35,11 +35,11 @@ using transport::Sink;
 using transport::SinkReason;
 using transport::Source;
 
-constexpr std::uint16_t port = 7000;  // every namespace has all of them
+constexpr std::uint16_t port = 7000;  // every namespace has its own ports
 constexpr milliseconds poll_period(5);
-constexpr milliseconds longest_recovery(5000);  // on a machine that is busy with other things
+constexpr milliseconds longest_recovery(5000);  // on a busy machine
 
-/// A machine "near", where the sources and sinks are, and one "far", which talks to them over a cable from v0 to v1.
+/// A machine "near" with the sources and sinks, and a machine "far", connected by a cable from v0 to v1.
 struct Network {
   NetworkNamespace near, far;
 
@@ -87,7 +87,7 @@ class FarSender {
   FarSender(const FarSender&) = delete;
   FarSender& operator=(const FarSender&) = delete;
 
-  /// Whether it gets there is for the receiver to say.
+  /// Only the receiver knows whether it arrives.
   void send(const std::string& datagram) const {
     (void)::sendto(fd_, datagram.data(), datagram.size(), MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to_),
                    to_.ss_family == AF_INET ? sizeof(sockaddr_in) : sizeof(sockaddr_in6));
@@ -118,7 +118,7 @@ const char* const ipv4_group = "239.9.9.9";
 const char* const ipv6_group = "ff15::9";
 const char* const link_group = "ff02::9:9";
 
-/// Receives on the far machine whatever comes through one interface.
+/// Receives on the far machine through one interface.
 class FarReceiver {
  public:
   explicit FarReceiver(const Network& network, const std::string& interface = "v1") {
@@ -163,11 +163,11 @@ struct Way {
   const char* name;
   const char* url;
   const char* to;    ///< for sources: the address or group that the far machine sends to
-  const char* tied;  ///< what waiting_for names when it is not there; for sinks: empty or not
+  const char* tied;  ///< what waiting_for names if it is missing; for sinks: empty or not
   bool is_route_decisive = false;
 };
 
-/// What happens to the network, and what ends it.
+/// An event of the network: how it starts and how it ends.
 struct NetworkEvent {
   const char* name;
   bool is_there_before;
@@ -232,7 +232,7 @@ const NetworkEvent events[] = {
     {"interface_appears", false, [](const Network&) {}, [](const Network& n) { n.plug_in(); }},
 };
 
-/// Until `works`; how long that took, none after the longest recovery.
+/// Waits until `works`; returns the time that it took, none after the longest recovery.
 template <typename Works>
 std::optional<milliseconds> time_until(const Works& works) {
   const auto begin = steady_clock::now();
@@ -254,7 +254,7 @@ bool sends_one(Sink& sink, const FarReceiver& receiver) {
   return receiver.receives(poll_period);
 }
 
-/// Ends what happened and waits until `works`; says how long that took, from the first and from the last command on.
+/// Ends the event and waits until `works`; prints how long that took, since the first and since the last command.
 template <typename Works>
 void expect_recovery(const std::string& what, const Way& way, const std::string& happening,
                      const std::function<void()>& ends, const Works& make_works) {
@@ -294,7 +294,7 @@ class NetworkTest : public testing::Test {
     return source.statistics().waiting_for;
   }
 
-  // One for all tests: to make one takes longer than most tests.
+  // One for all tests: creating it takes longer than most tests.
   static inline std::optional<Network> network;
 };
 
@@ -390,13 +390,13 @@ TEST_P(SinkOutage, IsAFaultWhileItLasts) {
   EXPECT_TRUE(fails()) << "nothing is there";
   network->plug_in();
   for (const char* change : {"link set v0 down", "addr flush dev v0", "link del v0"}) {
-    // Where a route stays, the kernel sends from any address that it has left.
+    // If a route remains, the kernel sends from any remaining address.
     if (way.is_route_decisive && is_ipv6(way.url) && change == std::string("addr flush dev v0")) continue;
     add_routes(*network);
     const FarReceiver receiver(*network);
     ASSERT_TRUE(time_until([&] { return sends_one(*sink, receiver); })) << "before " << change;
     network->near.ip(change);
-    // A moment may pass until the kernel says so.
+    // The kernel may report it a little later.
     EXPECT_TRUE(time_until(fails)) << change;
     for (int i = 0; i < 5; ++i) {
       const auto errors = sink->statistics().errors;
@@ -439,7 +439,7 @@ TEST_P(RouteAddedLater, RecordsArrive) {
 INSTANTIATE_TEST_SUITE_P(Networks, RouteAddedLater, testing::ValuesIn(sinks), name_of_way);
 
 TEST_F(NetworkTest, AReaderThatWaitsInTheKernelUsesTheNewInterface) {
-  // With a limit it waits in another system call than without.
+  // With a time limit it waits in another system call than without.
   for (const std::chrono::nanoseconds wait : {std::chrono::nanoseconds(test::deadline), std::chrono::nanoseconds(-1)}) {
     for (const Way& way : sources) {
       network->plug_in();

@@ -1,4 +1,4 @@
-// The UDP sink against plain sockets on the loopback.
+// The UDP sink with plain sockets on the loopback.
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/transport/sink.h"
 
@@ -78,7 +78,7 @@ TEST(UdpSink, EveryWriteOfConstantsIsSent) {
   for (std::uint64_t i = 0; i < 50; ++i) ASSERT_TRUE(sink->write(test::params(i)));
   ASSERT_TRUE(sink->write(test::constants(1920)));
   EXPECT_EQ(receiver.receive(), test::datagram(test::constants(720)));
-  EXPECT_EQ(receiver.receive(), test::datagram(test::constants(720))) << "whether they are new is the caller's matter";
+  EXPECT_EQ(receiver.receive(), test::datagram(test::constants(720))) << "the caller decides whether they are new";
   for (std::uint64_t i = 0; i < 50; ++i) ASSERT_EQ(receiver.receive(), test::datagram(test::params(i)));
   EXPECT_EQ(receiver.receive(), test::datagram(test::constants(1920)));
   EXPECT_EQ(sink->statistics().constants, 3u);
@@ -104,7 +104,7 @@ TEST(UdpSink, ConstantsAreRepeatedNotBeforeTheirPeriod) {
 
 TEST(UdpSink, RepeatedConstantsComeBeforeTheParamsOfTheirCamera) {
   const PlainSocket receiver;
-  // A period so short that it has passed at every write.
+  // A period so short that every write is later.
   const auto sink = open_sink(url_to(receiver, "?constants_period=1e-9"));
   ASSERT_TRUE(sink->write(test::constants(720, 1)));
   ASSERT_TRUE(sink->write(test::constants(1920, 2)));
@@ -150,7 +150,7 @@ TEST(UdpSink, AMissingReceiverDoesNotAffectALaterOne) {
   for (std::uint64_t i = 0; i < 20; ++i) ASSERT_TRUE(sink->write(test::params(i)));
   source = open_source(place);
   ASSERT_TRUE(sink->write(test::params(20)));
-  EXPECT_EQ(test::next_counter(*source), 20u) << "the first one after it came";
+  EXPECT_EQ(test::next_counter(*source), 20u) << "the first one after it arrived";
   EXPECT_EQ(sink->statistics().errors, 0u);
 }
 

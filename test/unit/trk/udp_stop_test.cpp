@@ -1,4 +1,4 @@
-// Ending a wait in the kernel: from a thread, from a signal handler; and a tracker that is another process.
+// Ending a wait in the kernel from a thread and from a signal handler; and a tracker in another process.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/syscall.h>
@@ -28,7 +28,7 @@ using transport::Reception;
 using transport::Source;
 using transport::TransportError;
 
-/// A thread that waits in receive() without end, seen to sleep in the kernel.
+/// A thread that waits in receive() without a limit; it is known to sleep in the kernel.
 class Waiting {
  public:
   explicit Waiting(Source& source)

@@ -1,4 +1,4 @@
-// The UDP source against plain sockets on the loopback.
+// The UDP source with plain sockets on the loopback.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST(UdpSource, NamesItsAddress) {
   EXPECT_EQ(source->statistics().waiting_for, "udp port " + port + ": bound, nothing received yet");
 }
 
-/// Whether the arrival lies between the times before and after sending, although it is read long after.
+/// Whether the arrival is between the times before and after sending, although the datagram is read much later.
 bool is_stamped_by_kernel(Source& source, const PlainSocket& tracker) {
   const std::int64_t before = realtime_now();
   tracker.send(test::datagram(test::params(1)), "127.0.0.1", port_of(source));
@@ -83,7 +83,7 @@ bool is_stamped_by_kernel(Source& source, const PlainSocket& tracker) {
 TEST(UdpSource, TheArrivalIsTheKernelsStamp) {
   const auto source = open_source("udp://127.0.0.1:0");
   const PlainSocket tracker;
-  // The kernel begins to stamp a moment after the first socket of the machine asked for it.
+  // The kernel starts stamping a moment after the first socket of the machine requests it.
   const auto until = std::chrono::steady_clock::now() + test::deadline;
   while (!is_stamped_by_kernel(*source, tracker)) ASSERT_LT(std::chrono::steady_clock::now(), until);
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(is_stamped_by_kernel(*source, tracker));
@@ -97,7 +97,7 @@ TEST(UdpSource, MoreThanABatchInOrder) {
   }
   Reception reception;
   for (std::uint64_t i = 0; i < 100; ++i) {
-    // On the loopback a datagram is there when sending it returns.
+    // On the loopback a datagram has arrived when sending returns.
     ASSERT_EQ(source->receive(reception, std::chrono::nanoseconds::zero()), Event::sample);
     ASSERT_EQ(std::get<wire::CameraParams>(reception.sample.record).counter, i);
   }
@@ -192,7 +192,7 @@ TEST(UdpSource, OneBadDatagramLosesOnlyThatDatagram) {
       ASSERT_TRUE(event == Event::sample || event == Event::malformed);
       ++events;
       const std::uint8_t last_byte = reception.sample.sender.address[3];
-      ASSERT_TRUE(last_byte == 2 || last_byte == 3) << "a malformed one has its sender, too";
+      ASSERT_TRUE(last_byte == 2 || last_byte == 3) << "a malformed one also has its sender";
       if (last_byte == 2) {
         ASSERT_EQ(event, Event::sample);
         ASSERT_EQ(std::get<wire::CameraParams>(reception.sample.record), test::params(i));
@@ -247,7 +247,7 @@ TEST(UdpSource, EachSendersLayoutIsItsOwn) {
   const auto send = [&source](const PlainSocket& tracker, const std::string& datagram) {
     tracker.send(datagram, "127.0.0.1", port_of(*source));
   };
-  // A matrix record with all format bits clear reads alike in both generations: only the constants tell them apart.
+  // A matrix record without format bits is equal in both generations: only the constants distinguish them.
   wire::CameraParams p = test::params(5);
   p.format = 0;
   p.euler = {};
@@ -304,7 +304,7 @@ TEST(UdpSource, ReportsWhyItCannotBeOpened) {
   EXPECT_THAT(open_error("udp://[fe80::7%25nosuch0]:0"), testing::AllOf(HasSubstr("port = 0"), HasSubstr("nosuch0")));
 }
 
-/// What a source that waits at `place` of some port waits for.
+/// The waiting_for of a source at `place` and some port.
 std::string waiting_for(const std::string& place) { return open_source(place)->statistics().waiting_for; }
 
 TEST(UdpSource, AMissingInterfaceIsWaitedFor) {
@@ -328,7 +328,7 @@ TEST(UdpSource, StatisticsWhileReceiving) {
     while (source->receive(reception, test::deadline) != Event::stopped) {
     }
   });
-  // Every snapshot is one moment: three good ones before each bad one.
+  // Every snapshot is consistent: three good ones before each bad one.
   const auto until = std::chrono::steady_clock::now() + test::deadline;
   SourceStatistics s;
   do {

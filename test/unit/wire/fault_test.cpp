@@ -1,4 +1,4 @@
-// Every way in which bytes can fail to be a record, and in which a record can fail to become bytes.
+// All reasons for which bytes cannot be decoded, or a record cannot be encoded.
 #include "trk_bridge/wire/fault.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ constexpr int matrix_places[16] = {2, 3, 4, 4, 5, 6, 7, 7, 8, 9, 10, 10, 11, 12,
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// "reason" or "reason at field", for comparing at one glance.
+/// "reason" or "reason at field", for simple comparisons.
 std::string brief(const Fault& fault) {
   return std::string(name(fault.reason)) + (fault.about_field ? " at " + std::to_string(fault.field) : "");
 }
@@ -162,7 +162,7 @@ TEST(Faults, AnImageOfAnotherSizeIsRefused) {
   EXPECT_EQ(fault_of(constants_from_image(std::string(64, '\0'), layout)), "wrong size");
 }
 
-/// Writes `record`, whose `number` is made not finite for it, in both encodings.
+/// Writes `record` in both encodings, after its `number` is made not finite.
 void expect_not_written(const CameraParams& record, double& number, int field, bool in_text = true) {
   const double before = number;
   Buffer buffer;
@@ -201,7 +201,7 @@ TEST(Faults, NumbersThatAreNotFiniteAreNotWritten) {
   }
 }
 
-/// The transform that the format does not select is not written, so it may be anything.
+/// The transform that the format does not select is not written, so it may have any value.
 TEST(Faults, ValuesThatAreNotWrittenAreNotChecked) {
   CameraParams p;
   p.format = euler;

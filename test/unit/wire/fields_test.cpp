@@ -26,13 +26,13 @@ std::vector<std::string> descriptions(std::uint32_t format = 0) {
   return all;
 }
 
-/// A visitor that gives the fields one number after another.
+/// A visitor that assigns numbers to the fields in order.
 auto numbers_from(int first) {
   return
       [next = first](const Field&, auto& value) mutable { value = static_cast<std::decay_t<decltype(value)>>(next++); };
 }
 
-/// The record with one more in field `which` of those that are visited.
+/// The record with the visited field `which` increased by one.
 template <class Record>
 Record with_one_changed(Record record, std::size_t which) {
   std::size_t i = 0;
@@ -82,14 +82,14 @@ TEST(Fields, every_member_of_params_is_visited_once) {
   CameraParams p;
   for_each_field<CameraParams>(numbers_from(1), p);
   for_each_field<Euler>(numbers_from(11), p.euler);
-  // A member that is new in the record does not compile here until it is named here, too.
+  // A new member of the record causes a compile error here until it is added here.
   const auto& [id, mask, matrix, angles, fov, center_x, center_y, k1, k2, focdist, aperture, counter] = p;
   EXPECT_THAT((std::vector<double>{double(id), double(mask), fov, center_x, center_y, k1, k2, focdist, aperture,
                                    double(counter)}),
               ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
   const auto& [x, y, z, pan, tilt, roll] = angles;
   EXPECT_THAT((std::vector<double>{x, y, z, pan, tilt, roll}), ElementsAre(11, 12, 13, 14, 15, 16));
-  EXPECT_THAT(matrix, ::testing::Each(0)) << "it is an array, and no field of the list";
+  EXPECT_THAT(matrix, ::testing::Each(0)) << "it is an array and not in the list of fields";
 }
 
 TEST(Fields, every_member_of_constants_is_visited_once) {
@@ -150,7 +150,7 @@ TEST(Fields, equality_looks_at_the_transform_of_the_format_only) {
   EXPECT_TRUE(other == matrix);
 }
 
-/// Another type with the names of Euler, in an order and of a type of its own.
+/// Another type with the names of Euler, but with another order and type.
 struct Pose {
   float roll, tilt, pan, z, y, x;
 };

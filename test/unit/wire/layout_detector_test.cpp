@@ -1,4 +1,4 @@
-// Layouts detected from the records themselves.
+// Detection of layouts from records.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void put_word(std::string& datagram, std::size_t offset, std::uint32_t word, Byt
   }
 }
 
-/// The datagram with `word` wherever its layout has padding, and in what Euler angles leave of the union.
+/// The datagram with `word` in all padding of its layout, and in the part of the union that Euler angles do not use.
 std::string with_padding(std::string datagram, const CameraParams& p, Layout as, std::uint32_t word) {
   const auto data = test::bytes_with_data(p, as);
   for (std::size_t offset = 0; offset + 4 <= data.size(); offset += 4) {
@@ -120,7 +120,7 @@ TEST(LayoutDetector, TheDefaultFormatOfLowNumberedCamerasIsIdentified) {
     const auto read = decode(binary(p, identified_lp64), detector);
     ASSERT_TRUE(read);
     EXPECT_EQ(bits_of(read->record), bits_of(p)) << id;
-    // An odd number would be the word `euler`, and in its place stands a matrix.
+    // An odd number would be the word `euler`, but the record contains a matrix.
     EXPECT_EQ(read->layout_guessed, id % 2 == 0) << id;
   }
 }
@@ -296,7 +296,7 @@ TEST(LayoutDetector, ATruncatedRecordIsNotOneOfASmallerLayout) {
         if (size >= constants_size(as)) continue;
         LayoutDetector detector;
         EXPECT_FALSE(decode(std::string_view(whole).substr(0, header_size + size), detector))
-            << describe(as) << " cut to " << size << ", id " << id;
+            << describe(as) << " truncated to " << size << ", id " << id;
       }
       for (const std::uint32_t mask : {0x001U, 0x011U, 0x3BFU, 0x000U, 0x012U}) {
         CameraParams p = random.params(mask);
@@ -304,7 +304,7 @@ TEST(LayoutDetector, ATruncatedRecordIsNotOneOfASmallerLayout) {
         if (params_size(as) == 192) continue;
         LayoutDetector detector;
         EXPECT_FALSE(decode(std::string_view(binary(p, as)).substr(0, header_size + 192), detector))
-            << describe(as) << " cut to 192, mask " << mask << ", id " << id;
+            << describe(as) << " truncated to 192, mask " << mask << ", id " << id;
       }
     }
   }

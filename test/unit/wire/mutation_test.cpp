@@ -1,4 +1,4 @@
-// Damaged datagrams of the field never become a wrong record.
+// Damaged datagrams of existing programs never become a wrong record.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -77,7 +77,7 @@ TEST(Mutation, TenThousandDamagedDatagrams) {
   }
 }
 
-/// Of a cut text only the NUL and part of the last number can be missed: a cut is a fault, or it is in the counter.
+/// A truncated text is a fault, unless only the NUL or a part of the last number, the counter, is missing.
 TEST(Mutation, ATruncatedTextIsAFaultUpToItsLastNumber) {
   for (const std::string& whole : datagrams("ascii_hex")) {
     const std::size_t last_number = whole.rfind(' ') + 1;
@@ -91,8 +91,9 @@ TEST(Mutation, ATruncatedTextIsAFaultUpToItsLastNumber) {
   }
 }
 
-/// A cut binary record is a fault. Only 196 of 200 bytes can be a record of their own, that of an i386 sender: an
-/// identified little-endian one then means the very same, and a matrix of the document's generation is one of a camera.
+/// A truncated binary record is a fault. Only 196 of 200 bytes can be a valid record, that of an i386 sender: an
+/// identified little-endian one then has the same meaning, and a matrix of the document's generation is read as one
+/// with an id.
 TEST(Mutation, ATruncatedBinaryRecordIsAFault) {
   for (const std::string& whole : datagrams("binary_hex")) {
     LayoutDetector reference_detector;
@@ -116,7 +117,7 @@ TEST(Mutation, ATruncatedBinaryRecordIsAFault) {
   }
 }
 
-/// One bad datagram costs that datagram alone, and nothing of one is found in the next.
+/// A bad datagram affects only itself; no data of it gets into the next one.
 TEST(Mutation, ABadDatagramLeavesNothingBehind) {
   Damage damage(7);
   for (const char* const key : {"ascii_hex", "binary_hex"}) {

@@ -1,4 +1,4 @@
-// Numbers in text: shortest, exact, and the same in every locale.
+// Numbers in text: as short as possible, exact, and the same in every locale.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -21,7 +21,7 @@
 namespace trk_bridge::wire {
 namespace {
 
-/// A record in which `word` stands for pan, field 5.
+/// A record with `word` as pan, field 5.
 std::string with_pan(const std::string& word) { return "11 1 2 3 " + word + " 5 6 40 0 0 0 0 4 2 99"; }
 
 tl::expected<double, Fault> read_pan(const std::string& word) {
@@ -47,7 +47,7 @@ std::uint64_t bits_of(double value) {
   return bits;
 }
 
-/// The shortest text with an exponent that reads back.
+/// The shortest text with an exponent that gives the same number.
 std::string shortest_scientific(double value) {
   char text[64];
   for (int digits = 0; digits < 17; ++digits) {
@@ -75,7 +75,7 @@ TEST(Numbers, AnyDoubleReadsBackFromTheShortestText) {
   }
 }
 
-/// Numbers of the sizes that records have, with up to 17 digits, some of them whole or 0.
+/// Numbers of the magnitudes in records, with up to 17 digits, some of them integers or 0.
 double likely_number(std::mt19937_64& random) {
   const double value =
       std::uniform_real_distribution<double>(-200, 200)(random) * std::pow(10.0, static_cast<int>(random() % 24) - 12);
@@ -97,8 +97,8 @@ TEST(Numbers, AreReadAsStrtodReadsThem) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 300000; ++i) {
     const double value = likely_number(random);
-    // %g and %e as the field prints, more digits than a double has, and the value in full, which is often half-way
-    // between two others when the last digit is taken off.
+    // %g and %e like existing programs, more digits than a double has, and the exact value, which without its last
+    // digit is often halfway between two others.
     const char* const format = std::array{"%.*g", "%.*e", "%.*f"}[random() % 3];
     char word[400];
     std::snprintf(word, sizeof word, format, static_cast<int>(random() % 26), value);
@@ -111,7 +111,7 @@ TEST(Numbers, AreReadAsStrtodReadsThem) {
 TEST(Numbers, HalfWayBetweenTwoDoubles) {
   std::mt19937_64 random(11);
   for (int i = 0; i < 100000; ++i) {
-    // An odd number of 54 bits, which no double is, and what is just below and above.
+    // An odd number of 54 bits, which no double can represent, and numbers just below and above it.
     const std::uint64_t half_way = (std::uint64_t{1} << 53U | random() >> 11U) | 1U;
     const std::uint64_t whole = half_way + random() % 3 - 1;
     for (const char* const behind : {"", ".", ".0", "e0", "e-5", "e5", "e-23"}) {
@@ -137,7 +137,7 @@ TEST(Numbers, AreWrittenAsToCharsWritesThem) {
   }
 }
 
-/// The one encoded with a memory must be the one encoded without.
+/// Encoding with a memory must give the same result as without.
 TEST(Numbers, RememberedTextsAreThoseOfTheSameNumbers) {
   std::mt19937_64 random(5);
   TextCache memory;
@@ -224,7 +224,7 @@ TEST(Numbers, InvalidOnesAreRefusedWithAReason) {
   }
 }
 
-/// Writes and reads what a locale with commas spoils elsewhere.
+/// Writes and reads numbers that a locale with decimal commas would break.
 void expect_points() {
   EXPECT_EQ(written_pan(1234567.25), "1234567.25");
   EXPECT_EQ(read_pan("1234567.25"), 1234567.25);
@@ -259,7 +259,7 @@ TEST(Numbers, AreTheSameUnderACLocaleWithCommas) {
   for (const char* const name : {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "it_IT.UTF-8", "es_ES.UTF-8"}) {
     if (found == nullptr) found = std::setlocale(LC_ALL, name);
   }
-  if (found == nullptr) GTEST_SKIP() << "no locale with commas is installed; the C++ one is tested above";
+  if (found == nullptr) GTEST_SKIP() << "no locale with decimal commas is installed; the C++ one is tested above";
   EXPECT_STREQ(std::localeconv()->decimal_point, ",");
   expect_points();
   std::setlocale(LC_ALL, before.c_str());

@@ -1,4 +1,4 @@
-// Records of all kinds for the tests of the wire layer, and what to compare them by.
+// Records of all kinds for the tests of the wire layer, and comparisons of them.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ void append_bits(std::string& bits, const T& value) {
   bits.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// All fields, byte for byte: equal only when -0 is -0.
+/// All fields, byte for byte: -0 is not equal to 0.
 inline std::string bits_of(const wire::CameraParams& p) {
   std::string bits;
   append_bits(bits, p.id);
@@ -49,7 +49,8 @@ inline std::string bits_of(const wire::Record& record) {
   return std::visit([](const auto& r) { return bits_of(r); }, record);
 }
 
-/// Which bytes of a parameter image say something: all but padding and what Euler angles leave of the union.
+/// Which bytes of a parameter image contain data: all except padding and the part of the union that Euler angles do not
+/// use.
 inline std::vector<bool> bytes_with_data(const wire::CameraParams& p, wire::Layout layout) {
   const bool identified = layout.generation == wire::Generation::identified;
   const bool i386 = layout.abi == wire::Abi::i386;
@@ -64,7 +65,7 @@ inline std::vector<bool> bytes_with_data(const wire::CameraParams& p, wire::Layo
   return data;
 }
 
-/// Records with values that a camera could have, the same for the same seed.
+/// Records with realistic values, the same for the same seed.
 class RandomRecords {
  public:
   explicit RandomRecords(unsigned seed) : random_(seed) {}
@@ -140,7 +141,7 @@ class RandomRecords {
   std::mt19937 random_;
 };
 
-/// All that `encode` writes, which has to succeed.
+/// The output of `encode`, which must succeed.
 template <class T>
 std::string encoded(const T& record, wire::WireForm form) {
   wire::Buffer buffer;

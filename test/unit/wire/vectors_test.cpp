@@ -1,4 +1,4 @@
-// Every datagram that the field's own programs wrote, read and written again.
+// All datagrams written by existing programs are read and written again.
 #include <gmock/gmock.h>
 
 #include <algorithm>
