@@ -43,7 +43,7 @@ Unpacked unpack(std::vector<std::uint8_t>& packed) {
     produced += out;
     if (step == Step::end) return finish("");
     if (step == Step::fault) return finish("is damaged");
-    if (in == 0 && out == 0) return finish("is cut short");
+    if (in == 0 && out == 0) return finish("is truncated");
   }
 }
 

@@ -9,8 +9,8 @@ namespace trk_bridge::bag {
 
 struct Unpacked {
   std::vector<std::uint8_t> bytes;
-  std::string
-      fault;  ///< why the bytes are incomplete; empty: they are complete. Continues the phrase "the chunk at byte N".
+  /// Why the bytes are incomplete, as the end of a phrase that begins "the chunk at byte N"; empty: they are complete.
+  std::string fault;
 };
 
 /// `compression` is the word in the bag: bz2 or lz4; any other is a fault. Returns everything that was packed

@@ -20,7 +20,8 @@ constexpr const char* help =
     "The bag holds what trk_to_ros would publish for a take, on /NAME/params, /NAME/constants, /NAME/camera_info, /tf "
     "and /tf_static. Without --date or --start its date is 1970-01-02, because a take does not contain its day. The "
     "take holds one set of parameters for every message of /NAME/params, or for every camera_info with a pose in tf; "
-    "its time code is that of the first stamp in UTC. Of a bag that a crash cut short, everything in it is converted.";
+    "its time code is that of the first stamp in UTC. A bag that was truncated by a crash is converted as far as it "
+    "goes.";
 
 bool ends_in(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;

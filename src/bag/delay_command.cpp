@@ -127,7 +127,7 @@ delay::Measurement measure_delay(const std::string& path, const DelayOptions& op
     Reader bag(path, run);
     auto measurement = measured(bag, options, err);
     run.end();
-    if (!bag.damage().empty()) err << "trk: " << path << " is cut short: " << bag.damage() << '\n';
+    if (!bag.damage().empty()) err << "trk: " << path << " is truncated: " << bag.damage() << '\n';
     return measurement;
   } catch (const BagError& error) {
     throw BagError(path + ": " + error.what());

@@ -14,8 +14,8 @@ namespace trk_bridge::bag {
 
 struct DelayOptions {
   std::optional<std::string> camera;  ///< a namespace; none: the only camera of the bag
-  std::optional<std::string>
-      image;  ///< a topic; none: image_raw of the camera, or its only image topic, or the only one of the bag
+  /// A topic; none: image_raw of the camera, or its only image topic, or the only one of the bag.
+  std::optional<std::string> image;
   double most_delay = 0.5;  ///< s
 };
 

@@ -89,7 +89,7 @@ void take_of_bag(const std::string& bag_path, const std::string& take_path, cons
       const FieldVisitor visit = [&take](const Field& field) { return take.write(field); };
       const auto& read = camera.input == Input::params ? fields_from_params : fields_from_tf;
       read(bag, camera.name, options, run, visit, err);
-      if (!bag.damage().empty()) err << "trk: " << bag_path << " is cut short: " << bag.damage() << '\n';
+      if (!bag.damage().empty()) err << "trk: " << bag_path << " is truncated: " << bag.damage() << '\n';
       take.finish(err);
     } catch (...) {
       take.discard();

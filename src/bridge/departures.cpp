@@ -87,9 +87,9 @@ void Departures::write(const wire::CameraParams& params, const transport::Record
     auto* camera = camera_of(params.id);
     if (camera == nullptr) return;
     const bool was_due = camera->paced.due().has_value();
-    const bool is_sound = camera->paced.add(params, time.nanoseconds, lens_time, now, clock).has_value();
-    if (!is_sound) camera->unchanged.emplace(params, time.nanoseconds);
-    if (was_due && is_sound && !camera->paced.waits(now)) return;
+    const bool is_valid = camera->paced.add(params, time.nanoseconds, lens_time, now, clock).has_value();
+    if (!is_valid) camera->unchanged.emplace(params, time.nanoseconds);
+    if (was_due && is_valid && !camera->paced.waits(now)) return;
     wakes_ = true;
   }
   changed_.notify_one();

@@ -27,12 +27,11 @@ struct OutletOptions {
 
 /// The state of an outlet, for people.
 struct OutletState {
-  std::string name;         ///< Sink::name
-  std::string notice;       ///< Sink::notice
-  bool is_open = false;     ///< it was opened, or records were written
-  std::string cannot_open;  ///< why the last attempt to open failed; empty: it did not fail
-  std::int64_t busy_since =
-      0;  ///< steady clock, ns: start of the current open, write or close; 0: it waits for records
+  std::string name;             ///< Sink::name
+  std::string notice;           ///< Sink::notice
+  bool is_open = false;         ///< it was opened, or records were written
+  std::string cannot_open;      ///< why the last attempt to open failed; empty: it did not fail
+  std::int64_t busy_since = 0;  ///< steady clock, ns: start of the current open, write or close; 0: it is idle
 };
 
 /// A sink whose writes never block is written in the caller's thread. Every other sink has a queue and a thread, which

@@ -53,8 +53,8 @@ using LossListener = std::function<void(const Loss&)>;
 struct OutletStatistics {
   transport::SinkStatistics sent;
   std::uint64_t dropped = 0;  ///< parameters that are not a valid camera; reason of the last one: `drop_reason`
-  std::uint64_t withheld =
-      0;  ///< parameters that cannot be converted to the format; reason of the last one: `withhold_reason`
+  /// Parameters that cannot be converted to the format; reason of the last one: `withhold_reason`.
+  std::uint64_t withheld = 0;
   camera::CameraReason drop_reason{}, withhold_reason{};
   std::uint64_t refused_constants = 0;  ///< invalid ones (no picture is left), and those of too many ids
   std::uint32_t last_id = 0;            ///< as sent; valid once sent.params > 0

@@ -66,7 +66,7 @@ TransformFilter::Verdict TransformFilter::judge(const StampedLink& given, std::i
 }
 
 std::optional<StampJump> TransformFilter::jump_of(const Link& link, const StampedLink& given, std::int64_t ros_now,
-                                                std::int64_t now) const {
+                                                  std::int64_t now) const {
   const std::int64_t expected = link.newest ? *link.newest + (now - link.newest_at) : ros_now + ahead_;
   if (given.stamp > std::max(ros_now, expected) + most_off) {
     return StampJump{StampJump::Kind::ahead, std::string(given.child), std::string(given.sender),

@@ -9,11 +9,10 @@
 namespace trk_bridge::delay {
 namespace {
 
-constexpr double least_fault = 0.01;  // of a focal length
-constexpr double least_roll_fault =
-    0.1;                    // of a scale: a person who walks in front of the camera can cause a few percent
-constexpr double sure = 3;  // standard deviations
-constexpr double ms = 1e3;  // in a second
+constexpr double least_fault = 0.01;      // of a focal length
+constexpr double least_roll_fault = 0.1;  // of a scale: a person in front of the camera can cause a few percent
+constexpr double sure = 3;                // standard deviations
+constexpr double ms = 1e3;                // in a second
 
 std::string number(const char* format, double value) {
   char text[64];

@@ -25,16 +25,16 @@ TestCardParameters read_test_card_parameters(const XmlRpc::XmlRpcValue& tree, co
   reader.number("height", place.height, {0, 1000, "m"});
   reader.number("spacing", place.spacing, {0.01, 1000, "m"});
 
-  if (reader.are_sound({"optical_frame", "studio_frame"}) && parameters.optical_frame == parameters.studio_frame) {
+  if (reader.are_valid({"optical_frame", "studio_frame"}) && parameters.optical_frame == parameters.studio_frame) {
     reader.fault("optical_frame", ros1::shown(parameters.optical_frame), "must differ from studio_frame");
   }
-  if (reader.are_sound({"random_video_delay"}) && parameters.random_video_delay && reader.has("video_delay")) {
+  if (reader.are_valid({"random_video_delay"}) && parameters.random_video_delay && reader.has("video_delay")) {
     reader.fault("video_delay", "must not be set together with random_video_delay");
   }
   const std::pair<const char*, double> sizes[] = {
       {"width", place.width}, {"depth", place.depth}, {"height", place.height}};
   for (const auto& [key, size] : sizes) {
-    if (reader.are_sound({key, "spacing"}) && size > most_cells * place.spacing) {
+    if (reader.are_valid({key, "spacing"}) && size > most_cells * place.spacing) {
       reader.fault(key, ros1::shown(size), "must not be more than " + std::to_string(most_cells) + " times spacing");
     }
   }

@@ -26,7 +26,7 @@ tl::expected<Alarm, std::string> parse_alarm(std::string_view);
 std::string alarm_quantities();
 
 /// The raised alarms of all cameras, as findings with level error. Loss, malformed records and drops are those of the
-/// last seconds (Model::looks_back), rate and jitter (99th percentile) those of the window of arrivals, which must
+/// last seconds (Model::findings_span), rate and jitter (99th percentile) those of the window of arrivals, which must
 /// cover at least one second. A silent camera has rate 0; before the first camera, the source counts as silent.
 std::vector<bridge::Finding> raised(const std::vector<Alarm>&, const State&);
 

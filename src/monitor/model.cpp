@@ -149,23 +149,23 @@ void Model::add_malformed(const transport::Reception& reception, Time now) {
   malformed_ = Malformed{reception.fault, reception.sample.sender, now};
 }
 
-bridge::CameraReport Model::report(const Snapshot& look, std::optional<std::uint32_t> id,
+bridge::CameraReport Model::report(const Snapshot& snapshot, std::optional<std::uint32_t> id,
                                    const std::string& source_name) const {
   bridge::CameraReport report;
   report.source_name = source_name;
-  report.source = look.source;
+  report.source = snapshot.source;
   report.reader.has_fault = malformed_.has_value();
   if (malformed_) report.reader.last_fault = malformed_->fault;
-  const auto camera = id ? look.cameras.find(*id) : look.cameras.end();
-  if (camera != look.cameras.end()) report.camera = camera->second;
-  report.time = look.time;
+  const auto camera = id ? snapshot.cameras.find(*id) : snapshot.cameras.end();
+  if (camera != snapshot.cameras.end()) report.camera = camera->second;
+  report.time = snapshot.time;
   return report;
 }
 
 SourceReports Model::compare(Time now, const transport::Source& source) {
   Snapshot latest{nanoseconds_of(now), source.statistics(), read_kernel_counters(), {}};
   for (const auto& [id, camera] : watched_) latest.cameras.emplace(id, camera.pipeline.statistics());
-  while (snapshots_.size() > 1 && static_cast<double>(latest.time - snapshots_[1].time) >= looks_back * 1e9) {
+  while (snapshots_.size() > 1 && static_cast<double>(latest.time - snapshots_[1].time) >= findings_span * 1e9) {
     snapshots_.pop_front();
   }
   const Snapshot& earlier = snapshots_.front();
@@ -200,7 +200,7 @@ State Model::state(Time now, const transport::Source& source) {
   state.recent_malformed = reports.now.source.malformed - reports.before.source.malformed;
   state.recent_drops = reports.now.source.kernel_drops - reports.before.source.kernel_drops;
   if (malformed_) {
-    state.malformed = MalformedState{malformed_->fault, malformed_->sender, seconds_between(malformed_->came, now)};
+    state.malformed = MalformedState{malformed_->fault, malformed_->sender, seconds_between(malformed_->arrived, now)};
   }
   for (const auto& [key, track] : tracks_) {
     state.cameras.push_back(state_of(key, track, now));
@@ -232,7 +232,7 @@ CameraState Model::state_of(const cli::Tally::Key& key, const Track& track, Time
   const auto lens = track.latest->has_lens ? camera::decode_lens(params, constants)
                                            : tl::make_unexpected(camera::CameraReason::no_lens);
   const auto angle = lens.and_then([&](const camera::Lens& known) { return horizontal_angle(known, constants); });
-  const double age = seconds_between(track.latest->came, now);
+  const double age = seconds_between(track.latest->arrived, now);
   const double interval = state.jitter ? static_cast<double>(state.jitter->interval) * 1e-9 : 0;
   state.latest = ParamsState{params,
                              track.latest->origin,

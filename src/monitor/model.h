@@ -66,9 +66,10 @@ struct State {
   std::vector<bridge::Finding> findings;
   transport::SourceStatistics source;
   std::optional<MalformedState> malformed;
-  std::vector<CameraState> cameras;                      ///< by id and sender, active ones before silent ones
-  std::uint64_t not_shown = 0;                           ///< records of more cameras than cli::Tally::most_cameras
-  std::uint64_t recent_malformed = 0, recent_drops = 0;  ///< within the last seconds (looks_back); drops: by the kernel
+  std::vector<CameraState> cameras;  ///< by id and sender, active ones before silent ones
+  std::uint64_t not_shown = 0;       ///< records of more cameras than cli::Tally::most_cameras
+  std::uint64_t recent_malformed = 0,
+                recent_drops = 0;  ///< within the last seconds (findings_span); drops: by the kernel
 };
 /// A copy that does not change with the model.
 State frozen(State);
@@ -90,7 +91,7 @@ class Model {
   State state(Time now, const transport::Source&);
 
   /// Findings cover this time, s.
-  static constexpr double looks_back = 5;
+  static constexpr double findings_span = 5;
 
  private:
   struct Latest {
@@ -100,7 +101,7 @@ class Model {
     const char* doubt;
     const char* origin;
     std::optional<base::CountedTimeCode> time_code;
-    Time came;
+    Time arrived;
   };
   /// One id of one sender.
   struct Track {
@@ -121,7 +122,7 @@ class Model {
   struct Malformed {
     transport::Fault fault;
     transport::Sender sender;
-    Time came;
+    Time arrived;
   };
   struct Snapshot {
     std::int64_t time = 0;  // steady clock, ns

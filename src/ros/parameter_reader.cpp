@@ -142,13 +142,13 @@ std::vector<std::string> ParameterReader::keys() const {
   return names;
 }
 
-bool ParameterReader::is_sound(const std::string& key) const {
-  if (outer_ != nullptr && !has(key)) return outer_->is_sound(key);
+bool ParameterReader::is_valid(const std::string& key) const {
+  if (outer_ != nullptr && !has(key)) return outer_->is_valid(key);
   return !contains(faulty_, key);
 }
 
-bool ParameterReader::are_sound(std::initializer_list<const char*> keys) const {
-  return std::all_of(keys.begin(), keys.end(), [this](const char* key) { return is_sound(key); });
+bool ParameterReader::are_valid(std::initializer_list<const char*> keys) const {
+  return std::all_of(keys.begin(), keys.end(), [this](const char* key) { return is_valid(key); });
 }
 
 void ParameterReader::fault(const std::string& key, const std::string& value, const std::string& allowed) {

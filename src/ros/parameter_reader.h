@@ -69,7 +69,7 @@ tl::expected<std::string, std::string> parse_frame(const std::string&);
 
 /// Reads one map of parameters. A function that reads a value does not change `into`, which contains the default, if
 /// the key is not given; a wrong value is a fault. It returns whether a value was read. Rules between parameters are
-/// checked afterwards: call fault() if a rule is broken and all its parameters are_sound().
+/// checked afterwards: call fault() if a rule is broken and all its parameters are_valid().
 class ParameterReader {
  public:
   /// For all private parameters of a node, whose keys begin with "~" in faults. A tree that is not a map is a fault and
@@ -110,10 +110,10 @@ class ParameterReader {
   /// The given keys, sorted.
   std::vector<std::string> keys() const;
 
-  /// For keys that are not given here, are_sound() asks `outer`, which must outlive this object and its copies.
+  /// For keys that are not given here, are_valid() asks `outer`, which must outlive this object and its copies.
   void inherit(const ParameterReader& outer) { outer_ = &outer; }
   /// Whether none of these keys has a wrong value: only then a rule between them can be checked.
-  bool are_sound(std::initializer_list<const char*> keys) const;
+  bool are_valid(std::initializer_list<const char*> keys) const;
   /// Adds the line "KEY = VALUE: ALLOWED".
   void fault(const std::string& key, const std::string& value, const std::string& allowed);
   /// Adds the line "KEY: TEXT".
@@ -133,7 +133,7 @@ class ParameterReader {
   XmlRpc::XmlRpcValue* find(const std::string& key);
   std::optional<std::string> text(const std::string& key, const std::string& allowed);
   std::optional<std::vector<std::string>> texts(const std::string& key);
-  bool is_sound(const std::string& key) const;
+  bool is_valid(const std::string& key) const;
   bool refuse(const std::string& key, const std::string& value, const std::string& allowed);
   void add_line(const std::string& key, const std::string& line);
 

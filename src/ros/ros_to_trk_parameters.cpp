@@ -13,7 +13,7 @@ namespace {
 
 void read_sinks(ParameterReader& node, const std::string& preset, std::vector<transport::SinkEndpoint>& sinks) {
   node.parsed_list("sinks", sinks, [&preset](const std::string& url) { return endpoints::parse_sink(url, preset); });
-  if (!node.are_sound({"sinks"})) return;
+  if (!node.are_valid({"sinks"})) return;
   if (sinks.empty()) {
     node.fault("sinks", "[]", "must be given: endpoint URLs such as udp://host:7000, shm:7 or file:take.trk");
   }
@@ -31,7 +31,7 @@ std::string read_form(ParameterReader& node, transport::SinkForm& form) {
   node.id("id", form.id);
   if (!preset) return {};
   if (node.has("format")) {
-    if (node.are_sound({"format"})) {
+    if (node.are_valid({"format"})) {
       node.fault("preset", shown(preset->name), "must not be set together with format, because it sets the format");
     }
     return {};
@@ -94,13 +94,13 @@ void read_tf_input(ParameterReader& node, RosToTrkParameters& parameters) {
   if (is_optical) tf.frame_T_camera = camera_T_optical().inverse();
   node.number("focdist", tf.focdist, at_least(0, "metres"));
   node.number("aperture", tf.aperture, at_least(0));
-  if (node.are_sound({"camera_frame", "studio_frame"}) && parameters.camera_frame == parameters.studio_frame) {
+  if (node.are_valid({"camera_frame", "studio_frame"}) && parameters.camera_frame == parameters.studio_frame) {
     node.fault("camera_frame", shown(parameters.camera_frame), "must differ from studio_frame");
   }
 }
 
 void check_input(ParameterReader& node, OutgoingInput input) {
-  if (!node.are_sound({"input"})) return;
+  if (!node.are_valid({"input"})) return;
   if (input == OutgoingInput::params) {
     for (const char* key : {"blank_left", "blank_right", "blank_top", "blank_bottom"}) {
       if (node.has(key)) node.fault(key, "belongs to input tf; with input params the blanks are in the constants");

@@ -63,16 +63,16 @@ void read_own(ParameterReader& reader, const std::string& name, CameraParameters
   const bool over_network = camera.source && camera.source->over_network;
   camera.options.stamp = camera.stamp.value_or(over_network ? bridge::StampMode::counter : bridge::StampMode::arrival);
 
-  if (!camera.source && reader.are_sound({"source"})) reader.fault("source", "''", source_needed);
+  if (!camera.source && reader.are_valid({"source"})) reader.fault("source", "''", source_needed);
   constexpr const char* must_differ = "must differ from the camera's other frames";
-  if (reader.are_sound({"camera_frame", "studio_frame"}) && frames.camera == frames.studio) {
+  if (reader.are_valid({"camera_frame", "studio_frame"}) && frames.camera == frames.studio) {
     reader.fault("camera_frame", shown(frames.camera), must_differ);
   }
-  if (reader.are_sound({"optical_frame", "camera_frame", "studio_frame"}) &&
+  if (reader.are_valid({"optical_frame", "camera_frame", "studio_frame"}) &&
       (frames.optical == frames.camera || frames.optical == frames.studio)) {
     reader.fault("optical_frame", shown(frames.optical), must_differ);
   }
-  if (reader.are_sound({"publish_markers", "publish_camera_info"}) && camera.publish_markers &&
+  if (reader.are_valid({"publish_markers", "publish_camera_info"}) && camera.publish_markers &&
       !camera.options.publish_camera_info) {
     reader.fault("publish_markers", "true", "needs publish_camera_info, because its lens is drawn");
   }
@@ -85,9 +85,9 @@ void check_frames_of_pair(Reading& one, const Reading& before) {
   const std::pair<const char*, const std::string&> own[] = {{"camera_frame", frames.camera},
                                                             {"optical_frame", frames.optical}};
   for (const auto& [key, frame] : own) {
-    const bool clash = (before.reader.are_sound({"camera_frame"}) && frame == taken.camera) ||
-                       (before.reader.are_sound({"optical_frame"}) && frame == taken.optical);
-    if (one.reader.are_sound({key}) && clash) {
+    const bool clash = (before.reader.are_valid({"camera_frame"}) && frame == taken.camera) ||
+                       (before.reader.are_valid({"optical_frame"}) && frame == taken.optical);
+    if (one.reader.are_valid({key}) && clash) {
       one.reader.fault(key, shown(frame),
                        "is a frame of camera " + before.camera.name + ", too: a frame has one parent");
     }
@@ -96,7 +96,7 @@ void check_frames_of_pair(Reading& one, const Reading& before) {
 
 /// Checks that the records of cameras with the same source can be distinguished.
 void check_ids_of_pair(Reading& one, Reading& before) {
-  if (!one.reader.are_sound({"id"}) || !before.reader.are_sound({"id"})) return;
+  if (!one.reader.are_valid({"id"}) || !before.reader.are_valid({"id"})) return;
   const auto& id = one.camera.options.id;
   const auto& taken = before.camera.options.id;
   if (!id || !taken) {
@@ -114,7 +114,7 @@ void check_pair(Reading& one, Reading& before) {
   check_frames_of_pair(one, before);
   const auto& source = one.camera.source;
   const auto& other = before.camera.source;
-  if (!one.reader.are_sound({"source"}) || !before.reader.are_sound({"source"}) || !source || !other) return;
+  if (!one.reader.are_valid({"source"}) || !before.reader.are_valid({"source"}) || !source || !other) return;
   if (source->url == other->url) {
     check_ids_of_pair(one, before);
   } else if (source->place == other->place) {

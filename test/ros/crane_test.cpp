@@ -92,12 +92,12 @@ class CraneRoundTrip : public ::testing::TestWithParam<const char*> {
     const auto& infos = returned_info_.messages;
     const auto earlier = [](const auto& info, const ::ros::Time& time) { return info.header.stamp < time; };
     auto returned = infos.end();
-    const auto came = [&] {
+    const auto arrived = [&] {
       returned = std::lower_bound(infos.begin(), infos.end(), of_returned, earlier);
       return returned != infos.end() && !crane_info_.messages.empty() &&
              crane_info_.messages.back().header.stamp >= of_crane;
     };
-    if (!eventually(came) || returned->header.stamp != of_returned) return std::nullopt;
+    if (!eventually(arrived) || returned->header.stamp != of_returned) return std::nullopt;
     for (auto crane = crane_info_.messages.rbegin(); crane != crane_info_.messages.rend(); ++crane) {
       if (crane->header.stamp <= of_crane && agree(*crane, *returned)) return of_crane - crane->header.stamp;
     }

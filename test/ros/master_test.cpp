@@ -80,7 +80,7 @@ TEST_F(Master, ARestartIsReportedByNodesAndNodeletsThatContinue) {
   EXPECT_TRUE(goes_on());
 
   roscore.reset();
-  both_report(DiagnosticStatus::WARN, "does not answer: connections stay");
+  both_report(DiagnosticStatus::WARN, "does not answer: existing connections stay");
   EXPECT_TRUE(goes_on());
 
   roscore.emplace();
@@ -90,10 +90,10 @@ TEST_F(Master, ARestartIsReportedByNodesAndNodeletsThatContinue) {
   EXPECT_TRUE(diagnostics.reports(ros_of_other, DiagnosticStatus::WARN, "does not know")) << "the rest is still lost";
 
   node->signal(SIGINT);
-  const auto said = node->rest_of_err();
+  const auto output = node->rest_of_err();
   EXPECT_EQ(node->wait(), 0);
-  EXPECT_THAT(said, ::testing::HasSubstr("does not answer"));
-  EXPECT_THAT(said, ::testing::HasSubstr("the master does not know this node any more"));
+  EXPECT_THAT(output, ::testing::HasSubstr("does not answer"));
+  EXPECT_THAT(output, ::testing::HasSubstr("the master does not know this node any more"));
 }
 
 }  // namespace

@@ -18,19 +18,19 @@ void NodeProcessTest::start() {
 
 ::testing::AssertionResult NodeProcessTest::starts() {
   start();
-  auto told = reports_on(camera);
-  if (!told) {
+  auto reported = reports_on(camera);
+  if (!reported) {
     node->signal(SIGKILL);
-    told << "; output: " << node->rest_of_err();
+    reported << "; output: " << node->rest_of_err();
   }
-  return told;
+  return reported;
 }
 
 std::string NodeProcessTest::refusal() {
   start();
-  const std::string said = node->rest_of_err();
+  const std::string output = node->rest_of_err();
   EXPECT_EQ(node->wait(), 1);
-  return said;
+  return output;
 }
 
 std::chrono::nanoseconds NodeProcessTest::interrupted() {

@@ -67,7 +67,7 @@ class LiveReceiver {
   LiveReceiver& operator=(const LiveReceiver&) = delete;
 
   std::string url() const { return "udp://127.0.0.1:" + std::to_string(socket_.port()); }
-  std::vector<std::pair<std::uint64_t, steady_clock::time_point>> came() const {
+  std::vector<std::pair<std::uint64_t, steady_clock::time_point>> received() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return came_;
   }
@@ -104,38 +104,38 @@ class Outputs : public NodeProcessTest {
   /// order and without delay, at the working one.
   void expect_live(
       std::uint64_t count, const std::function<void()>& meanwhile = [] {}) {
-    std::map<std::uint64_t, steady_clock::time_point> went;
+    std::map<std::uint64_t, steady_clock::time_point> sent_at;
     std::atomic<bool> done{false};
     std::thread sender([&] {
       auto due = steady_clock::now();
       for (std::uint64_t i = 0; i < count || !done; ++i) {
         std::this_thread::sleep_until(due += milliseconds(20));
-        went[++sent] = steady_clock::now();
+        sent_at[++sent] = steady_clock::now();
         publisher->publish(params(sent));
       }
     });
-    const auto before = live.came().size();
+    const auto before = live.received().size();
     meanwhile();
     done = true;
     sender.join();
-    EXPECT_TRUE(eventually([&] { return live.came().size() - before >= went.size(); }));
-    auto came = live.came();
-    came.erase(came.begin(), came.begin() + static_cast<std::ptrdiff_t>(before));
-    ASSERT_EQ(came.size(), went.size()) << "none is missing";
+    EXPECT_TRUE(eventually([&] { return live.received().size() - before >= sent_at.size(); }));
+    auto received = live.received();
+    received.erase(received.begin(), received.begin() + static_cast<std::ptrdiff_t>(before));
+    ASSERT_EQ(received.size(), sent_at.size()) << "none is missing";
     std::vector<double> delays, gaps;
-    std::uint64_t expected = went.begin()->first;
-    for (const auto& [counter, time] : came) {
+    std::uint64_t expected = sent_at.begin()->first;
+    for (const auto& [counter, time] : received) {
       ASSERT_EQ(counter, expected++);
-      delays.push_back(std::chrono::duration<double, std::milli>(time - went[counter]).count());
+      delays.push_back(std::chrono::duration<double, std::milli>(time - sent_at[counter]).count());
     }
-    for (std::size_t i = 1; i < came.size(); ++i) {
-      gaps.push_back(std::chrono::duration<double, std::milli>(came[i].second - came[i - 1].second).count());
+    for (std::size_t i = 1; i < received.size(); ++i) {
+      gaps.push_back(std::chrono::duration<double, std::milli>(received[i].second - received[i - 1].second).count());
     }
     std::sort(delays.begin(), delays.end());
     std::sort(gaps.begin(), gaps.end());
-    const double took = std::chrono::duration<double>(came.back().second - came.front().second).count();
+    const double took = std::chrono::duration<double>(received.back().second - received.front().second).count();
     std::printf("%zu sets at %.2f Hz; delay median %.2f, 95 %% %.2f, most %.2f ms; gap 95 %% %.2f, most %.2f ms\n",
-                came.size(), static_cast<double>(came.size() - 1) / took, delays[delays.size() / 2],
+                received.size(), static_cast<double>(received.size() - 1) / took, delays[delays.size() / 2],
                 delays[delays.size() * 95 / 100], delays.back(), gaps[gaps.size() * 95 / 100], gaps.back());
     // If it waited for the other sink, it would be 200 ms late, and later with every set.
     EXPECT_LT(delays[delays.size() / 2], 100);
@@ -146,12 +146,12 @@ class Outputs : public NodeProcessTest {
   std::string end(int number = SIGINT) {
     const auto begin = steady_clock::now();
     node->signal(number);
-    std::string said = node->rest_of_err();
+    std::string output = node->rest_of_err();
     EXPECT_EQ(node->wait(), 0);
     const auto took = std::chrono::duration<double>(steady_clock::now() - begin).count();
     std::printf("ended after %.2f s\n", took);
     EXPECT_LT(took, 5);
-    return said;
+    return output;
   }
 
   ::testing::AssertionResult bad_reports(int level, const std::string& text) {
@@ -256,9 +256,9 @@ TEST_F(Outputs, StorageThatDoesNotAnswer) {
     EXPECT_TRUE(bad_reports(DiagnosticStatus::ERROR, "nothing is sent: no answer for "));
     expect_live_is_ok();
   });
-  const std::string said = end();
-  EXPECT_THAT(said, HasSubstr("take.trk was not closed in order: it does not answer, and was not waited for; "));
-  EXPECT_THAT(said, HasSubstr(" queued records are lost"));
+  const std::string output = end();
+  EXPECT_THAT(output, HasSubstr("take.trk was not closed in order: it does not answer, and was not waited for; "));
+  EXPECT_THAT(output, HasSubstr(" queued records are lost"));
 }
 
 TEST_F(Outputs, AFifoWithoutReader) {

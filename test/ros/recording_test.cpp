@@ -38,9 +38,9 @@ class Recording : public TrkToRosTest {
     std::vector<std::string> words{TRK_TOOL, "bag", from, to};
     words.insert(words.end(), options.begin(), options.end());
     Program trk(words);
-    const std::string said = trk.rest_of_err();
-    if (trk.wait() != 0) return ::testing::AssertionFailure() << said;
-    return ::testing::AssertionSuccess() << said;
+    const std::string output = trk.rest_of_err();
+    if (trk.wait() != 0) return ::testing::AssertionFailure() << output;
+    return ::testing::AssertionSuccess() << output;
   }
 
   TemporaryDirectory directory;

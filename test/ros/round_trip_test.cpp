@@ -38,11 +38,11 @@ class RoundTripOfNodes : public TrkToRosTest {
       const auto sets = receiver.params.size();
       tracker->send(one.constants);
       tracker->send(record);
-      const auto came = [&] {
+      const auto arrived = [&] {
         receiver.take();
         return receiver.params.size() > sets;
       };
-      if (!eventually(came, std::chrono::milliseconds(100)) || receiver.constants.empty()) continue;
+      if (!eventually(arrived, std::chrono::milliseconds(100)) || receiver.constants.empty()) continue;
       const auto back = camera::decode(receiver.params.back(), &receiver.constants.back());
       if (back) result = same(*back);
     }

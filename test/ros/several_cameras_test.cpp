@@ -19,8 +19,8 @@ class SeveralCameras : public TrkToRosTest {};
 
 TEST_F(SeveralCameras, ThreeOfTheExampleConfigurationOnOnePortAndInSharedMemory) {
   Program loading({"/usr/bin/env", "rosparam", "load", THREE_CAMERAS, "/three_cameras"});
-  const std::string said = loading.rest_of_err();
-  ASSERT_EQ(loading.wait(), 0) << said;
+  const std::string output = loading.rest_of_err();
+  ASSERT_EQ(loading.wait(), 0) << output;
   XmlRpc::XmlRpcValue tree;
   ASSERT_TRUE(::ros::param::get("/three_cameras", tree));
   ASSERT_EQ(ros1::read_trk_to_ros_parameters(tree, "unused").cameras.size(), 3u) << "the file itself is valid";

@@ -77,7 +77,7 @@ class SourceReader : public CameraTest {
       params_.push_back(::ros::NodeHandle().subscribe<trk_bridge::CameraParams>(
           name_space + "/camera" + std::to_string(i) + "/params", 1000,
           [this, i](const trk_bridge::CameraParamsConstPtr& message) {
-            came.push_back("params " + std::to_string(i) + " " + std::to_string(message->counter));
+            received.push_back("params " + std::to_string(i) + " " + std::to_string(message->counter));
             messages.push_back(message);
           }));
     }
@@ -87,7 +87,7 @@ class SourceReader : public CameraTest {
           std::string text = "tf";
           for (const auto& transform : message->transforms)
             text += " " + transform.child_frame_id.substr(camera.size() + 1);
-          came.push_back(text);
+          received.push_back(text);
         });
   }
   ~SourceReader() override { reader_.reset(); }
@@ -99,22 +99,22 @@ class SourceReader : public CameraTest {
     reader_ = std::make_unique<nodes::SourceReader>(std::make_unique<ScriptedSource>(std::move(arrivals)), cameras,
                                                     tf_publisher_);
     reader_->start();
-    EXPECT_TRUE(eventually([&] { return came.size() >= expected; }));
-    EXPECT_FALSE(eventually([&] { return came.size() > expected; }, std::chrono::milliseconds(50)));
+    EXPECT_TRUE(eventually([&] { return received.size() >= expected; }));
+    EXPECT_FALSE(eventually([&] { return received.size() > expected; }, std::chrono::milliseconds(50)));
   }
 
   static Arrival set(std::uint64_t counter, std::uint32_t id, bool more) { return {params(counter, id), more}; }
 
-  std::vector<std::string> came;
+  std::vector<std::string> received;
   std::vector<trk_bridge::CameraParamsConstPtr> messages;
 
-  /// From now on `came` also contains these.
+  /// From now on `received` also contains these.
   void listen_to_camera_infos() {
     for (int i = 1; i <= count; ++i) {
       params_.push_back(::ros::NodeHandle().subscribe<sensor_msgs::CameraInfo>(
           name_space + "/camera" + std::to_string(i) + "/camera_info", 1000,
           [this, i](const sensor_msgs::CameraInfoConstPtr& message) {
-            came.push_back("camera_info " + std::to_string(i) + " of " + std::to_string(message->width));
+            received.push_back("camera_info " + std::to_string(i) + " of " + std::to_string(message->width));
           }));
     }
   }
@@ -129,17 +129,17 @@ class SourceReader : public CameraTest {
 
 TEST_F(SourceReader, SamplesThatArriveTogetherAreOneTransformMessageThatComesFirst) {
   read({set(1, 1, true), set(1, 2, true), set(1, 3, false)}, 4);
-  EXPECT_THAT(came, ElementsAre("tf 1 2 3", "params 1 1", "params 2 1", "params 3 1"));
+  EXPECT_THAT(received, ElementsAre("tf 1 2 3", "params 1 1", "params 2 1", "params 3 1"));
 }
 
 TEST_F(SourceReader, ASingleSampleDoesNotWait) {
   read({set(1, 1, false), set(1, 2, false)}, 4);
-  EXPECT_THAT(came, ElementsAre("tf 1", "params 1 1", "tf 2", "params 2 1"));
+  EXPECT_THAT(received, ElementsAre("tf 1", "params 1 1", "tf 2", "params 2 1"));
 }
 
 TEST_F(SourceReader, ASecondSampleOfACameraComesAfterTheFirst) {
   read({set(1, 1, true), set(1, 2, true), set(2, 1, true), set(2, 2, false)}, 6);
-  EXPECT_THAT(came, ElementsAre("tf 1 2", "params 1 1", "params 2 1", "tf 1 2", "params 1 2", "params 2 2"));
+  EXPECT_THAT(received, ElementsAre("tf 1 2", "params 1 1", "params 2 1", "tf 1 2", "params 1 2", "params 2 2"));
 }
 
 TEST_F(SourceReader, MessagesThatNeedALensFitComeLast) {
@@ -152,18 +152,18 @@ TEST_F(SourceReader, MessagesThatNeedALensFitComeLast) {
         {constants(1920, 1), true},
         set(2, 1, false)},
        8);
-  EXPECT_THAT(came, ElementsAre("tf 1 2", "params 1 1", "params 2 1", "camera_info 1 of 720", "camera_info 2 of 640",
-                                "tf 1", "params 1 2", "camera_info 1 of 1920"));
+  EXPECT_THAT(received, ElementsAre("tf 1 2", "params 1 1", "params 2 1", "camera_info 1 of 720",
+                                    "camera_info 2 of 640", "tf 1", "params 1 2", "camera_info 1 of 1920"));
 }
 
 TEST_F(SourceReader, NothingWaitsForAMissingSample) {
   read({set(1, 1, true), set(1, 2, true)}, 3);
-  EXPECT_THAT(came, ElementsAre("tf 1 2", "params 1 1", "params 2 1"));
+  EXPECT_THAT(received, ElementsAre("tf 1 2", "params 1 1", "params 2 1"));
 }
 
 TEST_F(SourceReader, ARecordOfNoCameraEndsAGroup) {
   read({set(1, 1, true), set(1, 9, false)}, 2);
-  EXPECT_THAT(came, ElementsAre("tf 1", "params 1 1"));
+  EXPECT_THAT(received, ElementsAre("tf 1", "params 1 1"));
 }
 
 TEST_F(SourceReader, ADuplicateAndKnownConstantsDoNotSplitAGroup) {
@@ -175,7 +175,7 @@ TEST_F(SourceReader, ADuplicateAndKnownConstantsDoNotSplitAGroup) {
         {constants(720, 2), true},
         set(1, 3, false)},
        4);
-  EXPECT_THAT(came, ElementsAre("tf 1 2 3", "params 1 1", "params 2 1", "params 3 1"));
+  EXPECT_THAT(received, ElementsAre("tf 1 2 3", "params 1 1", "params 2 1", "params 3 1"));
 }
 
 /// roscpp numbers only the messages that it serialises.

@@ -53,11 +53,11 @@ TEST_F(Startup, APortInUseIsReportedWithItsNumber) {
 TEST_F(Startup, TheRemedyForAMistypedParameterMakesTheNextStartWork) {
   set("source", any_udp_port);
   Program({TRK_TO_ROS, "__ns:=" + name_space, "_formt:=euler"}).rest_of_err();
-  const std::string said = refusal();
+  const std::string output = refusal();
   const std::string command = "rosparam delete ";
-  const auto begin = said.find(command);
-  ASSERT_NE(begin, std::string::npos) << said;
-  const auto name = said.substr(begin + command.size());
+  const auto begin = output.find(command);
+  ASSERT_NE(begin, std::string::npos) << output;
+  const auto name = output.substr(begin + command.size());
   Program deleting({"/usr/bin/env", "rosparam", "delete", name.substr(0, name.find_first_of("\n\x1b"))});
   EXPECT_EQ(deleting.rest_of_err(), "");
   EXPECT_EQ(deleting.wait(), 0);

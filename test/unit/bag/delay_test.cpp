@@ -168,7 +168,7 @@ TEST_F(DelayOfBag, InvalidPicturesAreRefused) {
   image.header.stamp = ::ros::Time(begin);
   image.encoding = "sepia";
   put("/crane1/image_raw", begin, image);
-  EXPECT_THAT(refusal(), HasSubstr("a message of /crane1/image_raw is no picture"));
+  EXPECT_THAT(refusal(), HasSubstr("a message of /crane1/image_raw is not a picture"));
 }
 
 TEST_F(DelayOfBag, WithoutMotionTheExitCodeIsFailure) {

@@ -118,7 +118,7 @@ TEST_F(BagTest, AnEncryptedBagIsRefused) {
   };
   test::write_text(path, "#ROSBAG V2.0\n" + sized(sized("encryptor=rosbag/AesCbcEncryptor") + sized("op=\x03")) +
                              sized(std::string(100, ' ')));
-  EXPECT_THAT(refusal(path), HasSubstr("it is encrypted: rosbag decrypt"));
+  EXPECT_THAT(refusal(path), HasSubstr("it is encrypted: decrypt it with rosbag decrypt"));
 }
 
 /// The most memory that a process needs for this, KiB.

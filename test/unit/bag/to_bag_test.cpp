@@ -182,7 +182,7 @@ TEST_F(ToBag, ParamsCanBeConvertedToAnotherFormat) {
 
 TEST_F(ToBag, WhatTheNodeWouldNotPublishIsReportedAndOmitted) {
   to_bag(take_of({some_params(5), some_params(6), some_params(6), some_params(7)}));
-  EXPECT_THAT(err.str(), HasSubstr("1 fields are not in the bag: their counter came before"));
+  EXPECT_THAT(err.str(), HasSubstr("1 fields are not in the bag: their counter is not new"));
   EXPECT_EQ(to_take(directory / "a.bag").params.size(), 3u);
 }
 

@@ -70,8 +70,8 @@ struct Replay {
       if (!base::is_new(sequence.judge(sample.counter, sample.counter + 1))) continue;
       const std::int64_t stamp = clock.stamp(sequence.step(), sample.arrival);
       stamped.push_back({sample, stamp, found.learned});
-      const bool is_sound = stamp <= sample.arrival && stamp >= sample.arrival - 500'000'000 && stamp > before;
-      if (!is_sound) ADD_FAILURE() << text_of(signal) << ": stamp at " << stamped.back().time() << " s";
+      const bool is_valid = stamp <= sample.arrival && stamp >= sample.arrival - 500'000'000 && stamp > before;
+      if (!is_valid) ADD_FAILURE() << text_of(signal) << ": stamp at " << stamped.back().time() << " s";
       before = stamp;
     }
   }

@@ -229,7 +229,7 @@ TEST_F(SinkDiagnostics, ADelayShorterThanTheLatencyIsAWarning) {
   now.form.delay = transport::Delay{6'000'000, 6'000'000, 6'000'000};
   before.departures = DepartureStatistics{100, before.time, 0, 0, 100, 90, 0, 0};
   now.departures = DepartureStatistics{200, now.time, 0, 100 * 12e6, 200, 190, -100 * 0.32, 0};
-  expect(status(), Level::warn, "100 of 100 sets were sent older than the delay says");
+  expect(status(), Level::warn, "100 of 100 sets were older than the delay");
   expect(status(), Level::warn, "margin -0.32 fields");
   EXPECT_EQ(value_of(status(), "delay (s)"), "0.006");
   now.form.delay.reset();

@@ -27,16 +27,16 @@ TEST(OutletUnload, AnAbandonedSinkContinuesWhenItsLibraryIsUnloaded) {
   ASSERT_TRUE(leave_stuck != nullptr && leave_stuck(fifo.c_str(), records));
   ASSERT_EQ(::dlclose(module), 0);
   // A reader now gets everything, and then the end.
-  ssize_t came = 0;
+  ssize_t received = 0;
   pollfd watched{reader, POLLIN, 0};
   while (::poll(&watched, 1, static_cast<int>(std::chrono::milliseconds(deadline).count())) == 1) {
     char chunk[4096];
     const ssize_t got = ::read(reader, chunk, sizeof chunk);
     if (got <= 0) break;
-    came += got;
+    received += got;
   }
   ::close(reader);
-  EXPECT_EQ(came, records);
+  EXPECT_EQ(received, records);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ TEST(TestCardParameters, ARandomDelayExcludesAGivenOne) {
   tree["random_video_delay"] = true;
   EXPECT_TRUE(read_test_card_parameters(tree, "crane").random_video_delay);
   tree["video_delay"] = 0.02;
-  EXPECT_THAT(refusal(tree), HasSubstr("~video_delay: must not be given with random_video_delay"));
+  EXPECT_THAT(refusal(tree), HasSubstr("~video_delay: must not be set together with random_video_delay"));
 }
 
 TEST(TestCardParameters, FramesMustBeValid) {

@@ -397,7 +397,7 @@ TEST(TrkMonitor, ATerminalOfUnknownTypeIsAnError) {
   MonitorOnATerminal monitor("no_such_terminal");
   EXPECT_EQ(monitor.wait(), 1);
   EXPECT_TRUE(monitor.is_as_before());
-  EXPECT_THAT(monitor.written, HasSubstr("trk: error: TERM='no_such_terminal': no terminal of that type is known"));
+  EXPECT_THAT(monitor.written, HasSubstr("trk: error: TERM='no_such_terminal': unknown type of terminal"));
 }
 
 TEST(TrkMonitor, IntoAPipeItIsOneLinePerSecond) {

@@ -326,9 +326,9 @@ TEST(OpenTrackIoDecoder, ADuplicateMessageIsCountedOnce) {
 TEST(OpenTrackIoDecoder, ASenderThatDoesNotCountIsAccepted) {
   PacketDecoder decoder(false, 37);
   const std::string packet = packet_of(full_sample().dump());
-  int heard = 0;
-  for (int i = 0; i < 100; ++i) heard += given(decoder, packet).samples.empty() ? 0 : 1;
-  EXPECT_GE(heard, 90);
+  int received = 0;
+  for (int i = 0; i < 100; ++i) received += given(decoder, packet).samples.empty() ? 0 : 1;
+  EXPECT_GE(received, 90);
 }
 
 TEST(OpenTrackIoDecoder, DistortionThatHasToBeFitted) {

@@ -64,9 +64,9 @@ TEST(ParameterReader, MissingAndFaultyValuesKeepTheirDefault) {
   EXPECT_EQ(choice, 'a');
   EXPECT_EQ(parsed, 5u);
   EXPECT_THAT(list, ElementsAre(6));
-  EXPECT_TRUE(reader.are_sound({"other"}));
+  EXPECT_TRUE(reader.are_valid({"other"}));
   for (const char* key : {"number", "integer", "choice", "parsed", "list"}) {
-    EXPECT_FALSE(reader.are_sound({"other", key})) << key;
+    EXPECT_FALSE(reader.are_valid({"other", key})) << key;
   }
   EXPECT_EQ(end_of(reader),
             "~number = 'one': must be a number\n"
@@ -116,8 +116,8 @@ TEST(ParameterReader, AMapInheritsValidityAndAddsItsFaults) {
   other->inherit(node);
   EXPECT_TRUE(slow->number("rate", rate));
   EXPECT_FALSE(other->number("rate", rate));
-  EXPECT_TRUE(slow->are_sound({"rate"}));
-  EXPECT_FALSE(other->are_sound({"rate"})) << "it uses the node's rate, which is wrong";
+  EXPECT_TRUE(slow->are_valid({"rate"}));
+  EXPECT_FALSE(other->are_valid({"rate"})) << "it uses the node's rate, which is wrong";
   slow->refuse_unknown();
   other->refuse_unknown();
   EXPECT_EQ(end_of(node),

@@ -131,7 +131,7 @@ TEST(Read, CamerasOnOneSourceMustHaveDifferentIds) {
   EXPECT_THAT(lines_of(tree), ElementsAre(AllOf(HasSubstr("~cameras/right/id = 1"), HasSubstr("left's"))));
   tree["cameras"]["right"] = empty_map();
   EXPECT_THAT(lines_of(tree),
-              ElementsAre(AllOf(HasSubstr("~cameras/right/id = (none)"), HasSubstr("each must have its id"))));
+              ElementsAre(AllOf(HasSubstr("~cameras/right/id = (none)"), HasSubstr("each must have an id"))));
   tree["cameras"]["left"] = empty_map();
   tree["cameras"]["right"]["id"] = 1;
   EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~cameras/left/id = (none)")));
@@ -142,7 +142,8 @@ TEST(Read, CamerasOnOneSourceMustHaveDifferentIds) {
 TEST(Read, OnePortHasOneUrl) {
   auto tree = two_cameras();
   tree["cameras"]["right"]["source"] = "udp://:7000?layout=identified";
-  EXPECT_THAT(lines_of(tree), ElementsAre(AllOf(HasSubstr("~cameras/right/source"), HasSubstr("very same URL"))));
+  EXPECT_THAT(lines_of(tree),
+              ElementsAre(AllOf(HasSubstr("~cameras/right/source"), HasSubstr("exactly the same URL"))));
 }
 
 TEST(Read, AFrameHasOneParent) {

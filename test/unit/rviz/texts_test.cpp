@@ -46,15 +46,15 @@ TEST(NameOfTopic, IsItsNamespace) {
 }
 
 TEST(Age, IsThatOfTheStamp) {
-  const ros::Time now(1000), came(999.5);
-  const auto fresh = age_of(ros::Time(999.98), came, now);
+  const ros::Time now(1000), arrived(999.5);
+  const auto fresh = age_of(ros::Time(999.98), arrived, now);
   EXPECT_TRUE(fresh.fresh);
   EXPECT_EQ(fresh.text, "0.02 s");
-  const auto old = age_of(ros::Time(998.5), came, now);
+  const auto old = age_of(ros::Time(998.5), arrived, now);
   EXPECT_FALSE(old.fresh);
   EXPECT_THAT(old.text, HasSubstr("1.50 s"));
-  EXPECT_TRUE(age_of(ros::Time(1000.5), came, now).fresh);
-  const auto future = age_of(ros::Time(1002), came, now);
+  EXPECT_TRUE(age_of(ros::Time(1000.5), arrived, now).fresh);
+  const auto future = age_of(ros::Time(1002), arrived, now);
   EXPECT_FALSE(future.fresh);
   EXPECT_THAT(future.text, HasSubstr("future"));
 }

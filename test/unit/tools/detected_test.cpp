@@ -104,7 +104,7 @@ TEST(Detected, MotionIsReportedWithItsSigns) {
   panned.euler.pan = 45;
   const auto lines = lines_of(found(test::params(1), panned));
   EXPECT_THAT(lines, Contains("  angles    pan 30.0 to 45.0, tilt -5.0, roll 0.2 degrees"));
-  EXPECT_THAT(lines, Contains(HasSubstr("right where pan to the left")));
+  EXPECT_THAT(lines, Contains(HasSubstr("right if pan to the left")));
 }
 
 TEST(Detected, MissingConstantsAndSeveralCamerasAreNamed) {

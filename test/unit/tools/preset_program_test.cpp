@@ -64,7 +64,7 @@ Received relayed_to(const std::string& preset) {
   wire::LayoutDetector detector;
   for (int i = 0; i < 2; ++i) {
     const auto record = wire::decode(receiver.receive().value_or(""), detector);
-    if (!record) throw std::runtime_error("no record came: " + wire::describe(record.error()));
+    if (!record) throw std::runtime_error("no record was received: " + wire::describe(record.error()));
     if (const auto* params = std::get_if<wire::CameraParams>(&record->record)) received.params = *params;
     if (const auto* constants = std::get_if<wire::CameraConstants>(&record->record)) received.constants = *constants;
   }

@@ -116,8 +116,8 @@ TEST_F(RelayTest, RecordsWithoutALensAreRefusedWithTheReason) {
   EXPECT_EQ(run(), cli::exit_failed);
   EXPECT_EQ(control.params().size(), 1u);
   EXPECT_THAT(err.str(),
-              HasSubstr("parameters from 127.0.0.1:5000 cannot be passed on: the records have no lens: a lens "
-                        "table of the source (lens=FILE) would give one (reported once)"));
+              HasSubstr("parameters from 127.0.0.1:5000 cannot be passed on: the records have no lens: set a lens "
+                        "table of the source (lens=FILE) (reported once)"));
   EXPECT_THAT(err.str(), HasSubstr("not passed on: 2 parameters: the records have no lens"));
 }
 

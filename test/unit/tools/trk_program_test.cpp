@@ -168,8 +168,8 @@ TEST_F(TrkRecording, TwoSignalsInQuickSuccessionLoseNothing) {
     relay->signal(round % 2 == 0 ? SIGINT : SIGTERM);
     std::this_thread::sleep_for(std::chrono::microseconds(250 * (round / 4)));
     relay->signal(round % 3 == 0 ? SIGTERM : SIGINT);
-    const std::string said = relay->rest_of_err();
-    EXPECT_EQ(relay->wait(), 0) << said;
+    const std::string output = relay->rest_of_err();
+    EXPECT_EQ(relay->wait(), 0) << output;
     EXPECT_EQ(file::read_take(path).params.size(), 20u);
     std::filesystem::remove(path);
   }
@@ -229,10 +229,10 @@ TEST_F(TrkRecording, AFifoWithoutReaderBlocksNobody) {
   }
   const auto begin = std::chrono::steady_clock::now();
   relay->signal(SIGINT);
-  const std::string said = relay->rest_of_err();
+  const std::string output = relay->rest_of_err();
   EXPECT_EQ(relay->wait(), 1);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
-  EXPECT_THAT(said,
+  EXPECT_THAT(output,
               testing::ContainsRegex(
                   "error: file .*fifo: it does not answer, and was not waited for; [0-9]+ queued records are lost"));
 }

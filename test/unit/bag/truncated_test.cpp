@@ -61,7 +61,7 @@ TEST_F(CutBag, GivesEveryCompleteRecordForAnyLength) {
     before = fields;
   }
   EXPECT_EQ(fields_of(bytes.substr(0, bytes.size() - 1)), all.size()) << "only its index is truncated";
-  EXPECT_THAT(err.str(), HasSubstr("cut.bag is cut short: "));
+  EXPECT_THAT(err.str(), HasSubstr("cut.bag is truncated: "));
 }
 
 TEST_F(CutBag, ATruncatedRecordIsIgnored) {
