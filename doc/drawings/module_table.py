@@ -1,4 +1,4 @@
-"""The modules of the code and what each may use: drawn by modules.py, and compared with the code by test/doc/modules_test.py."""
+"""The modules of the code and what each may use: drawn by modules.py, compared with the code by modules_test.py."""
 
 import typing
 
@@ -25,7 +25,7 @@ MODULES = {
     "file": Module("trk in files", ("base", "transport", "wire")),
     "opentrackio": Module("OpenTrackIO over UDP", ("base", "camera", "transport", "wire")),
     "endpoints": Module("URLs, presets",
-                      ("base", "file", "freed", "opentrackio", "shm", "transport", "trk", "wire")),
+                        ("base", "file", "freed", "opentrackio", "shm", "transport", "trk", "wire")),
     "c_api": Module("functions of the document", ("base", "file", "shm", "transport", "trk", "wire")),
     "bridge": Module("pipelines, stamps, diagnostics", ("base", "camera", "transport", "wire")),
     "plot": Module("plots as SVG"),

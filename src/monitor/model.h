@@ -66,10 +66,10 @@ struct State {
   std::vector<bridge::Finding> findings;
   transport::SourceStatistics source;
   std::optional<MalformedState> malformed;
-  std::vector<CameraState> cameras;  ///< by id and sender, active ones before silent ones
-  std::uint64_t not_shown = 0;       ///< records of more cameras than cli::Tally::most_cameras
-  std::uint64_t recent_malformed = 0,
-                recent_drops = 0;  ///< within the last seconds (findings_span); drops: by the kernel
+  std::vector<CameraState> cameras;    ///< by id and sender, active ones before silent ones
+  std::uint64_t not_shown = 0;         ///< records of more cameras than cli::Tally::most_cameras
+  std::uint64_t recent_malformed = 0;  ///< within the last seconds (Model::findings_span)
+  std::uint64_t recent_drops = 0;      ///< by the kernel, within the same time
 };
 /// A copy that does not change with the model.
 State frozen(State);
