@@ -105,13 +105,14 @@ void CounterClock::follow(double counts, double elapsed) noexcept {
     ++statistics_.restarts;
     counts = std::round(-line_ / interval_);
     line_ += counts * interval_;
-    if (std::abs(line_) > gate()) return resume();
+    if (std::abs(line_) > outlier_limit()) return resume();
     counts = std::max(counts, 1.0);
   } else {
     line_ += counts * interval_;
   }
   const double error = -line_;
-  const bool is_outlier = samples_ >= least_samples && offset_samples_ >= least_run && std::abs(error) > gate();
+  const bool is_outlier =
+      samples_ >= least_samples && offset_samples_ >= least_run && std::abs(error) > outlier_limit();
   note(error, counts, elapsed, is_outlier);
   if (!is_outlier) correct(error, counts);
   if (has_stepped()) return step();
@@ -134,11 +135,11 @@ void CounterClock::resume() noexcept {
   statistics_.learned = false;
 }
 
-double CounterClock::gate() const noexcept { return std::max(outlier * to_sigma * deviation_, least_outlier); }
+double CounterClock::outlier_limit() const noexcept { return std::max(outlier * to_sigma * deviation_, least_outlier); }
 
 void CounterClock::note(double error, double counts, double elapsed, bool is_outlier) noexcept {
   const double passed = counts * interval_;
-  const double clipped = std::clamp(error, -gate(), gate());
+  const double clipped = std::clamp(error, -outlier_limit(), gate());
   gap_ -= gap_ * std::min(1.0, passed / closes_gap_in);
 
   const double weight = std::min(1.0, passed / recent);
@@ -146,7 +147,7 @@ void CounterClock::note(double error, double counts, double elapsed, bool is_out
   // Samples that a stall held back arrive together when it ends. They do not show the delay of the path.
   const bool was_held_back = is_outlier && elapsed < passed / 2;
   if (samples_ >= least_samples && since_step_ > offset_settles_in && !was_held_back) {
-    const double most = gate() * recent_clip;
+    const double most = outlier_limit() * recent_clip;
     recent_error_ += (std::clamp(error, -most, most) - recent_error_) * weight;
   }
 
@@ -205,7 +206,7 @@ void CounterClock::step() noexcept {
   const bool is_run = run_.samples >= least_run;
   const double by = is_run ? run_.errors / run_.samples : recent_error_;
   const double jumped = std::round(-by / interval_);
-  if (is_run && jumped >= 1 && jumped < run_.first_counts && std::abs(by + jumped * interval_) < gate() / 2) {
+  if (is_run && jumped >= 1 && jumped < run_.first_counts && std::abs(by + jumped * interval_) < outlier_limit() / 2) {
     ++statistics_.restarts;
     line_ -= jumped * interval_;
     recent_error_ = recent_outliers_ = 0;

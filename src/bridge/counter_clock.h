@@ -55,7 +55,7 @@ class CounterClock {
   bool has_stepped() const noexcept;
   void step() noexcept;
   void move_line(double by, double samples) noexcept;
-  double gate() const noexcept;
+  double outlier_limit() const noexcept;
   double before_arrival() const noexcept;
 
   /// Outliers on one side, without another sample between them.

@@ -40,7 +40,7 @@ Finding state(const TfReport& now, const TfReport& before, double rate) {
   if (!now.pose_fault.empty()) return nothing_sent(sets, now.time, "tf: " + now.pose_fault);
   if (now.tf.infos == 0) return nothing_sent(sets, now.time, "no camera_info yet on " + now.info_topic);
   if (now.tf.info_is_refused) {
-    // The log shows a condition once: a condition of its own is logged although `waiting` was logged before.
+    // The log shows a condition once: a separate condition is logged even if `waiting` was logged before.
     auto refused = nothing_sent(sets, now.time, "camera_info is refused: " + describe(now.tf.info_fault));
     refused.condition = Condition::bad_camera_info;
     return refused;

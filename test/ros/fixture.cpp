@@ -30,7 +30,7 @@ bool eventually(const std::function<bool()>& condition, std::chrono::nanoseconds
 
 bool is_advertised(const std::string& topic) {
   ::ros::master::V_TopicInfo topics;
-  if (!::ros::master::getTopics(topics)) throw std::runtime_error("the master does not tell its topics");
+  if (!::ros::master::getTopics(topics)) throw std::runtime_error("the master does not return its topics");
   return std::any_of(topics.begin(), topics.end(),
                      [&topic](const auto& advertised) { return advertised.name == topic; });
 }
@@ -79,7 +79,7 @@ std::string DiagnosticsRecorder::value(const std::string& name, const std::strin
   };
   if (eventually(met)) return ::testing::AssertionSuccess();
   const auto* status = find(name);
-  return ::testing::AssertionFailure() << name << " tells "
+  return ::testing::AssertionFailure() << name << " reports "
                                        << (status == nullptr ? "nothing"
                                                              : std::to_string(status->level) + " " + status->message)
                                        << ", not " << level << " " << text;

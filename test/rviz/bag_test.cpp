@@ -53,7 +53,7 @@ TEST(Bag, IsDrawnInEveryLoop) {
   property(display, {"Trail", "Color"}).setValue(green);
   property(display, {"Trail", "Length"}).setValue(60);
   property(display, {"Trail", "Line Width"}).setValue(0.03);
-  EXPECT_TRUE(window().tells(display, "Camera Info", rviz::StatusProperty::Warn, "no messages received"));
+  EXPECT_TRUE(window().shows_status(display, "Camera Info", rviz::StatusProperty::Warn, "no messages received"));
 
   Program player(
       {"/usr/bin/env", "rosbag", "play", "--quiet", "--loop", "--clock", "--hz=100", directory / "short.bag"});
@@ -66,7 +66,7 @@ TEST(Bag, IsDrawnInEveryLoop) {
     EXPECT_TRUE(window().eventually([&] { return !window().picture().pixels(green).empty(); }))
         << "the trail between the two places";
     for (const char* line : {"Camera Info", "Camera Params", "Transform", "Lens", "Age"}) {
-      EXPECT_TRUE(window().tells(display, line, rviz::StatusProperty::Ok)) << line;
+      EXPECT_TRUE(window().shows_status(display, line, rviz::StatusProperty::Ok)) << line;
     }
     EXPECT_GT(::ros::Time::now(), began);
     ASSERT_TRUE(window().eventually([&] { return ::ros::Time::now() < began; })) << "time has not jumped back";

@@ -49,13 +49,13 @@ TEST_F(Conditions, TheDialogShowsOurIconAndADescription) {
 TEST_F(Conditions, AddedAtRunTimeItWaitsForItsTopicAndThenDraws) {
   const std::string name = unique("added");
   auto& display = add_frustum("Camera", "/" + name + "/camera_info", "/" + name + "/params");
-  EXPECT_TRUE(window().tells(display, "Camera Info", warn, "no messages received"));
-  EXPECT_TRUE(window().tells(display, "Camera Info", warn, "/" + name + "/camera_info"));
+  EXPECT_TRUE(window().shows_status(display, "Camera Info", warn, "no messages received"));
+  EXPECT_TRUE(window().shows_status(display, "Camera Info", warn, "/" + name + "/camera_info"));
   const auto tracked = plain_camera(0, 15);
   const PublishedCamera camera(name, tracked);
   EXPECT_TRUE(becomes(tracked)) << statuses(display);
   for (const char* line : {"Camera Info", "Camera Params", "Constants", "Transform", "Lens", "Age"}) {
-    EXPECT_TRUE(window().tells(display, line, ok)) << line;
+    EXPECT_TRUE(window().shows_status(display, line, ok)) << line;
   }
 }
 
@@ -68,7 +68,7 @@ TEST_F(Conditions, TheCameraChangesWithTheTopic) {
   EXPECT_TRUE(becomes(right)) << statuses(display);
   property(display, {"Camera Info Topic"}).setValue(QString::fromStdString("/nobody/camera_info"));
   EXPECT_TRUE(vanishes());
-  EXPECT_TRUE(window().tells(display, "Camera Info", warn, "/nobody/camera_info"));
+  EXPECT_TRUE(window().shows_status(display, "Camera Info", warn, "/nobody/camera_info"));
   property(display, {"Camera Info Topic"}).setValue("");
   EXPECT_TRUE(window().draws());
   property(display, {"Camera Info Topic"}).setValue(QString::fromStdString(one.info_topic()));
@@ -93,16 +93,16 @@ TEST_F(Conditions, ACameraThatIsGoneIsNotDrawnAfterTheTimeout) {
   auto& display = add_frustum("Camera", camera.info_topic(), camera.params_topic());
   property(display, {"Timeout"}).setValue(1);
   EXPECT_TRUE(becomes(tracked));
-  EXPECT_TRUE(window().tells(display, "Age", ok));
+  EXPECT_TRUE(window().shows_status(display, "Age", ok));
   camera.publishes({false, false, false});
   EXPECT_TRUE(vanishes()) << statuses(display);
-  EXPECT_TRUE(window().tells(display, "Camera Info", warn, "no messages on " + camera.info_topic()));
-  EXPECT_TRUE(window().tells(display, "Age", warn, "older than"));
-  EXPECT_TRUE(window().tells(display, "Camera Params", warn, "no messages on " + camera.params_topic()));
+  EXPECT_TRUE(window().shows_status(display, "Camera Info", warn, "no messages on " + camera.info_topic()));
+  EXPECT_TRUE(window().shows_status(display, "Age", warn, "older than"));
+  EXPECT_TRUE(window().shows_status(display, "Camera Params", warn, "no messages on " + camera.params_topic()));
   camera.publishes({});
   EXPECT_TRUE(becomes(tracked)) << "it is shown again" << statuses(display);
-  EXPECT_TRUE(window().tells(display, "Camera Info", ok));
-  EXPECT_TRUE(window().tells(display, "Age", ok));
+  EXPECT_TRUE(window().shows_status(display, "Camera Info", ok));
+  EXPECT_TRUE(window().shows_status(display, "Age", ok));
 }
 
 TEST_F(Conditions, WithoutATimeoutTheLastOfACameraStays) {
@@ -122,26 +122,26 @@ TEST_F(Conditions, WithoutATransformNothingIsDrawnAndTheReasonOfTfIsShown) {
   PublishedCamera camera(unique("placeless"), tracked);
   camera.publishes({true, true, false});
   auto& display = add_frustum("Camera", camera.info_topic(), camera.params_topic());
-  EXPECT_TRUE(window().tells(display, "Transform", error, camera.name() + "_optical"));
+  EXPECT_TRUE(window().shows_status(display, "Transform", error, camera.name() + "_optical"));
   EXPECT_TRUE(window().picture().pixels(magenta).empty());
   camera.publishes({});
   EXPECT_TRUE(becomes(tracked)) << statuses(display);
-  EXPECT_TRUE(window().tells(display, "Transform", ok));
+  EXPECT_TRUE(window().shows_status(display, "Transform", ok));
   camera.publishes({true, true, false});
   EXPECT_TRUE(vanishes()) << "its current place is unknown";
-  EXPECT_TRUE(window().tells(display, "Transform", error));
+  EXPECT_TRUE(window().shows_status(display, "Transform", error));
 }
 
 TEST_F(Conditions, WithoutConstantsItReportsThat) {
   PublishedCamera camera(unique("unknown"), plain_camera());
   camera.publishes({false, true, true});
   const auto& display = add_frustum("Camera", camera.info_topic(), camera.params_topic());
-  EXPECT_TRUE(window().tells(display, "Constants", warn, "unknown"));
-  EXPECT_TRUE(window().tells(display, "Camera Params", ok));
+  EXPECT_TRUE(window().shows_status(display, "Constants", warn, "unknown"));
+  EXPECT_TRUE(window().shows_status(display, "Camera Params", ok));
   EXPECT_TRUE(window().picture().pixels(magenta).empty());
   camera.publishes({});
   EXPECT_TRUE(becomes(plain_camera())) << statuses(display);
-  EXPECT_TRUE(window().tells(display, "Constants", ok));
+  EXPECT_TRUE(window().shows_status(display, "Constants", ok));
 }
 
 TEST_F(Conditions, InvalidLensesAreReportedAndNotDrawn) {
@@ -171,7 +171,7 @@ TEST_F(Conditions, InvalidLensesAreReportedAndNotDrawn) {
     camera.spoils(nullptr);
     ASSERT_TRUE(becomes(tracked)) << statuses(display);
     camera.spoils(change);
-    EXPECT_TRUE(window().tells(display, "Lens", error));
+    EXPECT_TRUE(window().shows_status(display, "Lens", error));
     EXPECT_TRUE(vanishes());
   }
 }
@@ -221,7 +221,7 @@ TEST_F(Conditions, ATrailShowsThePathAndFades) {
   property(display, {"Trail", "Length"}).setValue(60);
   property(display, {"Trail", "Line Width"}).setValue(0.03);
   const auto place = [&tracked] { return Eigen::Vector3d(pose_of(tracked).translation()); };
-  ASSERT_TRUE(window().tells(display, "Age", ok));
+  ASSERT_TRUE(window().shows_status(display, "Age", ok));
   ASSERT_TRUE(window().draws(3));
   Path way{place()};
   for (const auto& [x, z] : {std::pair(1.0, 1.2), std::pair(1.0, 2.0)}) {
@@ -267,7 +267,7 @@ TEST_F(Conditions, TheFixedFrameCanChange) {
   EXPECT_TRUE(becomes(paths)) << statuses(display);
 
   window().manager().setFixedFrame("nowhere");
-  EXPECT_TRUE(window().tells(display, "Transform", error, "nowhere"));
+  EXPECT_TRUE(window().shows_status(display, "Transform", error, "nowhere"));
   EXPECT_TRUE(vanishes());
 
   window().manager().setFixedFrame("studio");

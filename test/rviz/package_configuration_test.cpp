@@ -33,7 +33,7 @@ TEST(PackageConfiguration, DrawsBothCameras) {
     };
     EXPECT_TRUE(window().eventually([&] { return corners_seen() >= 3; })) << corners_seen() << statuses(display);
     for (const char* line : {"Camera Info", "Transform", "Lens", "Age"}) {
-      EXPECT_TRUE(window().tells(display, line, rviz::StatusProperty::Ok)) << line;
+      EXPECT_TRUE(window().shows_status(display, line, rviz::StatusProperty::Ok)) << line;
     }
   }
   RvizWindow::screen().save(QString::fromStdString(results_directory() + "/configuration.png"));

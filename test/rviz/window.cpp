@@ -176,8 +176,8 @@ Picture RvizWindow::picture() {
 
 QImage RvizWindow::screen() { return QGuiApplication::primaryScreen()->grabWindow(0).toImage(); }
 
-::testing::AssertionResult RvizWindow::tells(const rviz::Display& display, const std::string& name,
-                                             rviz::StatusProperty::Level level, const std::string& text) {
+::testing::AssertionResult RvizWindow::shows_status(const rviz::Display& display, const std::string& name,
+                                                    rviz::StatusProperty::Level level, const std::string& text) {
   const auto met = [&] {
     const auto line = status(display, name);
     return line && line->level == level && line->text.find(text) != std::string::npos;

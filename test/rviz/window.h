@@ -79,8 +79,8 @@ class RvizWindow {
   static QImage screen();
 
   /// Waits until this line of the display's status has the level and contains `text`.
-  ::testing::AssertionResult tells(const rviz::Display& display, const std::string& name,
-                                   rviz::StatusProperty::Level level, const std::string& text = "");
+  ::testing::AssertionResult shows_status(const rviz::Display& display, const std::string& name,
+                                          rviz::StatusProperty::Level level, const std::string& text = "");
 
  private:
   QWidget& panel();

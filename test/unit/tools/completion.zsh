@@ -1,5 +1,5 @@
-# Types into an interactive zsh that has read the completion script FILE: completion.zsh FILE. Prints what a trk of its
-# own is called with.
+# Types into an interactive zsh that has loaded the completion script FILE: completion.zsh FILE. Prints the arguments of
+# each call of a fake trk.
 zmodload zsh/zpty
 zpty terminal zsh -f -i
 type() { zpty -w -n terminal $1$'\r' }
