@@ -31,7 +31,8 @@ enum class Ending : std::uint8_t {
 /// Runs until the source ends, is stopped or fails, until the listener returns false, or for `seconds` (wall time).
 Ending listen(transport::Source&, Listener&, std::optional<double> seconds = std::nullopt);
 
-/// Prints the summary on `err`, then what the source was waiting for, or its error if it failed. Returns the exit code.
-ExitCode report_end(const Tally&, const transport::SourceStatistics&, Ending, std::ostream& err);
+/// Prints the summary on `err`, then what the source was waiting for, or its error if it failed. Returns the exit
+/// code: exit_nothing if there was a limit (of records or time) and no record was received.
+ExitCode report_end(const Tally&, const transport::SourceStatistics&, Ending, bool has_limit, std::ostream& err);
 
 }  // namespace trk_bridge::cli

@@ -53,7 +53,7 @@ void DelayMeter::Input::refuse(const std::string& why) {
 }
 
 void DelayMeter::receive(const trk_bridge::CameraConstants& message) {
-  if (meter_.use(ros1::from_msg(message)) == camera::ConstantsChange::unsound) {
+  if (meter_.use(ros1::from_msg(message)) == camera::ConstantsChange::invalid) {
     ROS_WARN_STREAM("delay_meter: invalid constants are ignored");
   }
 }

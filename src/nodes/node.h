@@ -59,7 +59,7 @@ int node_main(int argc, char** argv, const char* name) {
   try {
     const Node running(node, ::ros::NodeHandle("~"), ::ros::this_node::getName());
     // Like ros::spin(), but the node is destroyed while the log still works.
-    while (::ros::ok() && !base::StopSignals::came()) {
+    while (::ros::ok() && !base::StopSignals::received()) {
       ::ros::getGlobalCallbackQueue()->callAvailable(::ros::WallDuration(0.1));
     }
   } catch (const std::exception& error) {

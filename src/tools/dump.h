@@ -19,6 +19,7 @@ struct DumpOptions {
 
 /// Prints records to `out`; malformed ones, with reason and sender, and at the end the summary to `err`. A pipe that
 /// the reader of `out` closed is not an error.
+/// exit_nothing if there is a limit and nothing was received.
 cli::ExitCode dump(transport::Source&, const DumpOptions&, std::ostream& out, std::ostream& err);
 
 }  // namespace trk_bridge::tools

@@ -166,7 +166,7 @@ class MonitorCommand {
     add_seconds(*command_, options_.seconds);
     command_
         ->add_option("--alarm", alarms_,
-                     "Raise an alarm, such as 'loss>1%': bell, first line, exit code 3. Can be given several times. "
+                     "Raise an alarm, such as 'loss>1%': bell, first line, exit code 4. Can be given several times. "
                      "Quantities: " +
                          monitor::alarm_quantities() + ", of the last seconds")
         ->allow_extra_args(false)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the commands of README.md, CONTRIBUTING.md and the pages in doc/ as their marks say (see pages.py).
+"""Runs the commands of all pages as their marks say (see pages.py).
 
 A page is one session from top to bottom: commands find the files, parameters and background processes of earlier commands.
 Background processes run until the text says Ctrl-C. Each page has a separate folder, which is also its home, and the address
@@ -208,7 +208,7 @@ def main():
     parser.add_argument("--devel", type=pathlib.Path, required=True, help="that build's devel space")
     parser.add_argument("--junit", type=pathlib.Path, help="where results are written to")
     parser.add_argument("--section", help="only sections whose heading contains this")
-    parser.add_argument("pages", nargs="*", type=pathlib.Path, help="default: README.md, CONTRIBUTING.md and doc/*.md")
+    parser.add_argument("pages", nargs="*", type=pathlib.Path, help="default: all pages")
     options = parser.parse_args()
     options.root, options.build = options.root.resolve(), options.build.resolve()
     paths = pages.page_files(options.root)

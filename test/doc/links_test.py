@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the links and pictures of README.md, CONTRIBUTING.md and the pages in doc/: links_test.py [ROOT].
+"""Checks the links and pictures of all pages: links_test.py [ROOT].
 
 Files must exist in the repository, with the same case, and be tracked by git if git is available; anchors must be the GitHub
 anchor of a heading of their page. Addresses of other machines are not opened, but must be https. Text between backticks or in

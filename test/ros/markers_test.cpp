@@ -162,7 +162,7 @@ TEST_F(Markers, OfALensThatIsTooWideAreNotDrawnAndTheReasonIsReported) {
   tracker->send(wide);
   EXPECT_TRUE(eventually([&] { return action(name + "/frustum") == Marker::DELETE; }));
   EXPECT_TRUE(diagnostics.reports(status_name(name), diagnostic_msgs::DiagnosticStatus::WARN,
-                                  "no markers: the image reaches farther than 89 degrees off the optical axis"));
+                                  "no markers: the image extends more than 89 degrees from the optical axis"));
   EXPECT_EQ(infos[name]->messages.size(), 2u) << "the lens is valid nevertheless";
 }
 

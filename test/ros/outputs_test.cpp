@@ -257,7 +257,7 @@ TEST_F(Outputs, StorageThatDoesNotAnswer) {
     expect_live_is_ok();
   });
   const std::string output = end();
-  EXPECT_THAT(output, HasSubstr("take.trk was not closed in order: it does not answer, and was not waited for; "));
+  EXPECT_THAT(output, HasSubstr("take.trk was not closed in order: it does not respond and was abandoned; "));
   EXPECT_THAT(output, HasSubstr(" queued records are lost"));
 }
 

@@ -20,12 +20,12 @@ struct Take {
   base::TimeCode time_code;
   wire::CameraConstants constants;
   std::vector<wire::CameraParams> params;
-  std::vector<LeftOut> left_out;  ///< lines: a truncated last one, and with Unsound::is_left_out others
+  std::vector<LeftOut> left_out;  ///< lines: a truncated last one, and with MalformedLines::are_skipped others
 };
 
 /// Throws transport::TransportError with the reader's message.
-inline Take read_take(const std::string& path, Unsound unsound = Unsound::is_error) {
-  TakeReader reader(path, unsound, Waiting::blocks);
+inline Take read_take(const std::string& path, MalformedLines malformed = MalformedLines::are_errors) {
+  TakeReader reader(path, malformed, Waiting::blocks);
   Take take;
   for (;;) {
     switch (reader.next()) {

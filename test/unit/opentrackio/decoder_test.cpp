@@ -297,7 +297,7 @@ TEST(OpenTrackIoDecoder, AnIncompleteSampleIsDiscarded) {
       }
     }
     EXPECT_THAT(counters, ElementsAre(0U, 2U)) << missing;
-    EXPECT_THAT(faults, ElementsAre(HasSubstr("lacks a segment"))) << missing << ": reported once";
+    EXPECT_THAT(faults, ElementsAre(HasSubstr("a segment is missing"))) << missing << ": reported once";
   }
 }
 

@@ -191,7 +191,8 @@ TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_detached_and_read_agai
     if (!receive_until(*source, [&] { return source->statistics().records > 0; })) ::_exit(no_record);
     if (::write(has_read[1], "1", 1) != 1) ::_exit(5);
     if (!receive_until(*source, [&] { return attachments(id) == 0; })) ::_exit(not_let_go);
-    if (source->statistics().waiting_for.find("nobody has attached to its segment") == std::string::npos) ::_exit(3);
+    if (source->statistics().waiting_for.find("no other program is attached to its segment") == std::string::npos)
+      ::_exit(3);
     // What was written without a reader is also read.
     const bool is_read =
         receive_until(*source, [&] { return std::get<wire::CameraParams>(into.sample.record) == params(2); });

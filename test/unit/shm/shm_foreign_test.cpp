@@ -100,9 +100,9 @@ TEST_F(Confused, a_segment_that_is_being_created_is_waited_for_and_unchanged) {
   Reception into;
   EXPECT_EQ(source->receive(into, 0s), Event::idle);
   EXPECT_EQ(source->statistics().state, SourceState::waiting);
-  EXPECT_THAT(source->statistics().waiting_for, HasSubstr("its maker has not finished it"));
+  EXPECT_THAT(source->statistics().waiting_for, HasSubstr("its creator has not finished it"));
   // The creator, this process, exists: a writer does not take over either.
-  EXPECT_THAT(refusal(url), HasSubstr("its maker has not finished it"));
+  EXPECT_THAT(refusal(url), HasSubstr("its creator has not finished it"));
   const auto sink = endpoints::parse_sink(url)->open();
   const auto written = sink->write(wire::CameraParams{});
   ASSERT_FALSE(written);

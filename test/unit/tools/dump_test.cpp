@@ -42,6 +42,20 @@ TEST_F(DumpTest, OneLinePerRecordAndTheSummaryByCameraAndSender) {
   EXPECT_THAT(err.str(), HasSubstr("id 8 from 127.0.0.1:6000: 1 accepted, 0 lost"));
 }
 
+TEST_F(DumpTest, NothingReceivedBeforeALimitHasItsExitCode) {
+  DumpOptions limited;
+  limited.seconds = 0.01;
+  EXPECT_EQ(run(limited), cli::exit_nothing);
+  EXPECT_THAT(err.str(), HasSubstr("received 0 "));
+  limited = {};
+  limited.count = 1;
+  feed.put_malformed(wire::Reason::bad_magic);
+  feed.put(transport::Event::stopped);
+  EXPECT_EQ(run(limited), cli::exit_nothing) << "a malformed record is not received";
+  feed.put(transport::Event::ended);
+  EXPECT_EQ(run(), cli::exit_good) << "without a limit, a source that ends at once is no error";
+}
+
 TEST_F(DumpTest, NewRecordsWhoseCounterDoesNotCountAreAccepted) {
   for (int n = 0; n < 100; ++n) {
     auto params = test::params(static_cast<std::uint64_t>(n % 25), 7);

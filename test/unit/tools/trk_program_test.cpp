@@ -234,7 +234,7 @@ TEST_F(TrkRecording, AFifoWithoutReaderBlocksNobody) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
   EXPECT_THAT(output,
               testing::ContainsRegex(
-                  "error: file .*fifo: it does not answer, and was not waited for; [0-9]+ queued records are lost"));
+                  "error: file .*fifo: it does not respond and was abandoned; [0-9]+ queued records are lost"));
 }
 
 TEST(TrkRelay, ClosesAFileProperlyOnSigterm) {

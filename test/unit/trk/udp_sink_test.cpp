@@ -215,7 +215,7 @@ TEST(UdpSink, BroadcastNeedsNoOption) {
 }
 
 TEST(UdpSink, ReportsWhyItCannotBeOpened) {
-  EXPECT_THAT(open_error("udp://0.0.0.0:7000"), HasSubstr("no address to send to"));
+  EXPECT_THAT(open_error("udp://0.0.0.0:7000"), HasSubstr("not an address to send to"));
   EXPECT_THAT(open_error("udp://[::]:7000"), HasSubstr("udp://[::]:7000: host"));
   EXPECT_THAT(open_error("udp://127.0.0.1:7000?interface=127.0.0.1"), HasSubstr("is for multicast"));
 }
