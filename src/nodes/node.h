@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include <ros/this_node.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include "nodelet_name.h"
 #include "ros/parameter_reader.h"
 
 #include "base/process.h"
@@ -76,6 +78,7 @@ class RunningNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     try {
+      name_.emplace(getName());
       running_ = std::make_unique<Node>(getNodeHandle(), getPrivateNodeHandle(), getName());
     } catch (const std::exception& error) {
       NODELET_FATAL_STREAM(getName() << " cannot start: " << error.what());
@@ -83,6 +86,7 @@ class RunningNodelet : public nodelet::Nodelet {
     }
   }
 
+  std::optional<NodeletName> name_;  // released after the node is destroyed
   std::unique_ptr<Node> running_;
 };
 

@@ -109,11 +109,13 @@ TEST_F(TrkToRosInManager, PublishesUntilItIsUnloadedAndCanBeLoadedAgain) {
   // Loading it again needs the port that unloading has to free.
   const ReservedPort reserved;
   set("source", reserved.url());
+  // A worker thread of the manager is often in a callback when the nodelet is unloaded.
+  set("diagnostic_period", 0.001);
   const Tracker tracker(reserved.number());
   std::uint64_t counter = 0;
-  for (int round = 1; round <= 2; ++round) {
+  for (int round = 1; round <= 20; ++round) {
     TransformRecorder transforms("/tf", camera);
-    ASSERT_TRUE(load());
+    ASSERT_TRUE(load()) << "round " << round;
     EXPECT_TRUE(eventually([&] {
       tracker.send(test::params(++counter));
       return !transforms.transforms.empty();

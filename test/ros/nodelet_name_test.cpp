@@ -1,0 +1,43 @@
+// A nodelet waits for the one that had its name before.
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "nodes/nodelet_name.h"
+
+namespace trk_bridge::nodes {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(NodeletName, WaitsUntilTheNameIsFree) {
+  auto before = std::make_unique<NodeletName>("/crane1/trk_to_ros");
+  std::atomic<bool> is_held = false;
+  std::thread loading([&] {
+    const NodeletName after("/crane1/trk_to_ros");
+    is_held = true;
+  });
+  std::this_thread::sleep_for(milliseconds(50));
+  EXPECT_FALSE(is_held);
+  before.reset();
+  loading.join();
+  EXPECT_TRUE(is_held);
+}
+
+TEST(NodeletName, OtherNamesDoNotWait) {
+  const NodeletName one("/crane1/trk_to_ros");
+  const NodeletName other("/crane2/trk_to_ros", milliseconds(0));
+}
+
+TEST(NodeletName, ANodeletThatNeverEndsIsAnError) {
+  const NodeletName before("/crane1/trk_to_ros");
+  EXPECT_THROW(NodeletName("/crane1/trk_to_ros", milliseconds(10)), std::runtime_error);
+  const NodeletName other("/crane2/trk_to_ros", milliseconds(0));
+}
+
+}  // namespace
+}  // namespace trk_bridge::nodes
