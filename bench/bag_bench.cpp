@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Converts a take to a bag and back, compared with plain loops over rosbag::Bag and rosbag::View with the same
 // messages.
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The C interface, call by call, compared with its lower limits.
 #include <arpa/inet.h>
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Measures how even departures are, the age of sent sets, and the time per set: departures_bench [SECONDS], at 50 Hz.
 #include <algorithm>
 #include <chrono>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Plays a take as fast as possible, compared with a plain loop over its lines with fgets and sscanf.
 #include <benchmark/benchmark.h>
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // floor_relay in|out _port:=PORT: see floor_relay.h.
 #include <cstdio>
 #include <string_view>

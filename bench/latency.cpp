@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Measures the time of a set from a datagram to subscribers, or from a topic to a datagram: through a node that is
 // already running, or through a nodelet that this program loads into its own manager, together with the subscriber:
 //   latency in|out [--nodelet ours|floor] --port PORT [--rate HZ] [--seconds S]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Measures the speed of this package compared with other code: each pair in one run, alternating, several rounds.
 
 Prints a table of ratios and writes doc/speed.csv, the table in doc/speed.md, and doc/images/speed.svg.

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Reads and writes a sample of OpenTrackIO in both encodings. Reading a sample must take less than 20 us.
 #include <string>
 #include <vector>

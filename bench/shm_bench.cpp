@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Measures the time from the write of a set to shared memory to its reception in another process, and the CPU time of
 // waiting for it: the source compared with the bare mechanisms. Prints CSV: name, ours, peer, unit.
 //

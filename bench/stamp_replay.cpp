@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Computes the stamps that trk_to_ros would have used: reads lines "counter arrival_ns" from standard input, writes
 // "counter stamp_ns" to standard output. Lines that are not new (a duplicate or late counter) give no output, because
 // trk_to_ros publishes nothing for them.

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The time of a datagram from a sink to a source over the loopback interface.
 #include <benchmark/benchmark.h>
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Time to read and to write one record, compared with other code: ASCII with sscanf and sprintf with the conversions of
 // existing programs (doc/wire_formats.md), binary with two copies of the 200 bytes.
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Measures how near ROS's distortion models come to lenses of the document, and the way back, as tables in CSV:
 // lens_fit there|back.
 #include <algorithm>

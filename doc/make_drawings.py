@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Draws every picture of doc/images that is a drawing or a plot, from the equations of doc/conventions.md and the
 tables that doc/lens_fit.cpp, doc/stamp_figures.py and scripts/bench measure.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Measures the stamps of doc/time.md: makes signals of a tracker behind a network, and asks stamp_replay for its stamps.
 
 Usage: stamp_figures.py STAMP_REPLAY [--check]. Writes doc/stamps.csv (ratios for every jitter and rate) and

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Refuses arguments that a launch file does not have. roslaunch ignores them, so that camra:=crane1 would do nothing.
 
 In a launch file: <param name="…" command="python3 $(find trk_bridge)/launch/check_arguments.py $(find trk_bridge)/launch/FILE"/>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Summarises a ctest run of this project in one line, "N passed, N failed", and exits with 1 if anything failed.
 
 Usage: count_results.py BUILD [STEP...]. Tests that catkin runs leave a JUnit file of their cases in BUILD/test_results;

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Turns gcovr's JSON into lines and branches per module: coverage_table.py COVERAGE.json UNCOVERED.txt
 
 Writes doc/coverage.csv and the table in doc/coverage.md, and to UNCOVERED.txt every line of code that no test reached.

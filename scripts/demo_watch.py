@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Prints one line per second about a camera that was received back from trk, and a summary at the end.
 
 Also prints the difference from the crane: ros_to_trk publishes the tf time of every counter on `sent`, trk_to_ros the counter

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # Sourced by the other scripts: paths of the project, and an environment in which catkin finds the Python of the system.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """The accuracy of the lens fit, from the tables that lens_fit.cpp measures."""
 
 import csv

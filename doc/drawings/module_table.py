@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """The modules of the code and what each may use: drawn by modules.py, compared with the code by modules_test.py."""
 
 import typing

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """The modules in layers: each box names the modules of lower layers that it uses directly."""
 
 import textwrap

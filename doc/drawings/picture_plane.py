@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """What lies in the picture: chip, blanks and pixels, field of view, distortion."""
 
 import math

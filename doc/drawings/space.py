@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Things in space: rotations of the camera model, a camera's body, and how a viewer sees them."""
 
 import math

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Ratios of doc/speed.csv, which scripts/bench measures: bars from 1, with the spread and the aim."""
 
 import csv

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Frames and signs in space: studio, camera, optical frame, angles, y-up."""
 
 from . import space

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """SVG pictures, written so that equal numbers give equal bytes. Labels that lie on each other are an error."""
 
 import math

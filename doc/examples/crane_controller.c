@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* A crane's controller: sends where its camera is to a renderer, 50 times a second: crane_controller HOST PORT SETS.
  * Ends after SETS sets of parameters. */
 #define _POSIX_C_SOURCE 199309L

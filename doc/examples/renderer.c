@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* A renderer: asks once a video field for the camera that a tracker sends to a UDP port, and prints it: renderer PORT
  * FIELDS. Ends after FIELDS fields with a camera. */
 #define _POSIX_C_SOURCE 199309L

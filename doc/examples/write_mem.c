@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* A tracker of its own: a camera that pans, written to shared memory 50 times a second: write_mem SLOT SETS. Ends after
  * SETS sets of parameters, or with Ctrl-C. */
 #define _POSIX_C_SOURCE 199309L

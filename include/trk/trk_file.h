@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* Camera parameters in files: one set for every video field (document, section 7.5). */
 #ifndef TRK_FILE_H
 #define TRK_FILE_H

@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* Camera parameters through shared memory (document, section 7.3). */
 #ifndef TRK_MEM_H
 #define TRK_MEM_H

@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* Camera parameters through the network: UDP datagrams (document, section 7.4). */
 #ifndef TRK_NET_H
 #define TRK_NET_H

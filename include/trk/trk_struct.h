@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* Camera parameters and constants, format options, errors, and their text forms (document, sections 3, 5 and 7).
  *
  * These headers are for libtrk: structures as in the document. The headers of the same names in trk_identified are for

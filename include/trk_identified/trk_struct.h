@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* For libtrk_identified: trk/trk_struct.h with a camera number in the structures. */
 #ifndef TRK_IDENTIFIED
 #define TRK_IDENTIFIED 1

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The index at the end of a bag: its connections, and the positions of its chunks.
 #pragma once
 

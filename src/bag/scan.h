@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Reads the messages of a bag without an index, because its recorder crashed or its end was lost.
 //
 // `rosbag reindex` rewrites a bag in place, but a damaged recording should stay unchanged. So its records are read one

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Reads YAML files written by users, with faults that name the line. For modules that use yaml-cpp.
 #pragma once
 

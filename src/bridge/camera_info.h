@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The numbers of a CameraInfo, and the lens that they describe: as trk can send it, and as it is drawn.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The incoming path of one camera: checks senders and records, converts, stamps and calibrates.
 #pragma once
 

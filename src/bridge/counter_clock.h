@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Computes when samples were taken from the rhythm of their counter: arrival times without network jitter.
 #pragma once
 

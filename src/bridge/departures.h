@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Decides when records are sent: at once, or by a timer at an even rhythm and with a delay.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // One sink of a program. A slow sink does not delay the others.
 #pragma once
 

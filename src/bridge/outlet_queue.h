@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A bounded queue of records between the thread that produces them and the thread that writes them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // One camera that is sent at an even rhythm, each time as it was one delay ago.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Follows one sender per camera: decides which of several senders is used.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The time of a sample as a stamp that ROS and tf can use.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The diagnostic status of one thing: that of REP 107, without ROS.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Combines poses of tf and lenses of CameraInfo to parameters and constants for outlets.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Protects a tf buffer from transforms with wrong stamps, which would block it, and follows clocks that were set.
 #pragma once
 

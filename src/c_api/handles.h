@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Handles of open transfers: numbers, never addresses, so that any value from a program can be looked up safely.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Converts the C structures of the document to the records of `wire` and back. Only the structures of libtrk_identified
 // have a camera id; otherwise, records have id 0.
 #pragma once

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The geometry that is drawn for a camera: the border of its image at depths in front of it. All points are in the
 // optical frame (REP 103: x right, y down, z forward), in metres.
 #pragma once

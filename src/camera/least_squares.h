@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Linear least squares for the lens fits. Not a template: Eigen takes seconds to compile it, and here it is compiled
 // once.
 #pragma once

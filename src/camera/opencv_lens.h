@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // K and D of a CameraInfo: the lens model of OpenCV, undistorted to distorted, and its inverse. Points and radii are in
 // units of the image distance, x right, y down.
 #pragma once

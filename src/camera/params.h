@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Reads, writes and converts the pose and the lens of a parameter record (pose.cpp, lens.cpp).
 #pragma once
 

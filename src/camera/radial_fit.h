@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Radial distortion from undistorted to distorted in the model of OpenCV, fitted to the polynomial of the document. All
 // radii are in units of the largest undistorted one.
 #pragma once

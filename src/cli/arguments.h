@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Arguments shared by several programs, and the handling of errors at the end of a program.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Shows the progress of a long run, and ends it on a signal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Help texts that CLI11 does not have, and the manual page.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Subcommands and options of CLI11, as manual pages and completions show them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Counts of received records by camera and sender, for the summary at the end of a program.
 #pragma once
 

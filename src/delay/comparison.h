@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Compares the turns of the picture with those of tracking at different delays of tracking.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The turn of a camera between two times, from its picture and from its poses.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The shot of the example crane (urdf/crane.urdf): its joints and its lens as functions of time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A node that renders the pictures of a tracked camera from the published data, to check that the data are right.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The content of the test card: grids on the floor of the studio and on a wall behind it, and the points where their
 // lines cross.
 #pragma once

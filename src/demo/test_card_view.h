@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The camera that sees the test card: the path from the studio to pixels according to the document, including the lens.
 #pragma once
 

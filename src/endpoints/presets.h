@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Known receivers, by name (config/presets.yaml, which is compiled in).
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Names of recordings, with the time of their first field or with numbers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A take: a text file with the parameters of one camera, one set per video field (doc/wire_formats.md, "File").
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The bytes of a Free-D message D1 (camera position and orientation), and faults (doc/free_d.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The meaning of zoom, focus and the spare bytes, which Free-D does not define.
 #pragma once
 

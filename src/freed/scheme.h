@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The scheme freed: Free-D D1 over UDP (doc/free_d.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Lens tables: the lens as a function of its encoder counts (doc/free_d.md, "Lens tables").
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Problems of the received data as text: the findings of the bridge's diagnostics, and those that only the monitor has.
 #pragma once
 

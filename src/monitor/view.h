@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // `trk monitor` as text: the state of the model laid out for a screen, or as one line per camera.
 #pragma once
 

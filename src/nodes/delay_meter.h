@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Measures the delay between a camera's video and its tracking live; shared by the node and the nodelet.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Code shared by all nodes, as programs and as nodelets. A `Node` is constructed from (node handle, private node
 // handle, full name) and runs from construction to destruction.
 #pragma once

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Publishes what ros_to_trk sends for tf as a topic.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Input of ros_to_trk from tf and the topics `camera_info` and `lens`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // OpenTrackIO packets: a header of 16 bytes and a segment of a sample.
 #pragma once
 

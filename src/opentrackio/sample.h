@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A sample of OpenTrackIO: the members that trk can express, and their encoding in JSON and CBOR.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The motion that the writing programs send: one parameter moves after another (document, section 6.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Prints records of the document's C interface in the same text as existing programs: scripts parse it.
 #pragma once
 

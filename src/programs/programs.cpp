@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The test programs of the document (section 6.2), which use the C interface: one source, built once for each name in
 // the table below (TRK_BRIDGE_PROGRAM). Usage, output and exit codes (0 success, 1 failure) are those of existing
 // programs, because scripts rely on them.

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Messages that are published by pointer and reused when no subscriber holds them any more.
 #pragma once
 

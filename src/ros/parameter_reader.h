@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Reads the private parameters of a node in one pass, and reports all faults at once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Objects in a scene of Ogre: areas, lines, a body and text; and conversions of points and poses to Ogre, which uses
 // float.
 #pragma once

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The lens of a CameraInfo as it is drawn, computed again only when it changes.
 #pragma once
 

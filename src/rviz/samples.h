@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The messages of one topic: a queue from the receiving to the drawing thread, and the recent messages.
 #pragma once
 

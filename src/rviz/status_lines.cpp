@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 #include "status_lines.h"
 
 namespace trk_bridge::rviz_display {

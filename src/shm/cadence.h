@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Schedules polling for the next set of a writer that does not wake its readers.
 #pragma once
 

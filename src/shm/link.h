@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Stays attached to a slot: reattaches when the segment was removed, replaced or did not exist yet.
 #pragma once
 

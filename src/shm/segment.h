@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // One shared memory segment of a slot (doc/wire_formats.md, "Shared memory"): finds, creates, reads, writes and removes
 // it.
 #pragma once

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The layouts of shared memory segments (doc/wire_formats.md, "Shared memory"): one table for all existing programs.
 #pragma once
 

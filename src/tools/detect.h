@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // `trk detect`: finds what is sent to this machine, by whom, in which protocol, and how to receive it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A camera that `trk detect` has found: its sender, whether its values are plausible, and how to use it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Writes to several sinks. A sink that refuses records or is slow does not affect the others.
 #pragma once
 

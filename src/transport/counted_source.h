@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Base class of all sources: counts, the state derived from them, and the end.
 #pragma once
 

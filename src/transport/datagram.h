@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Protocols over UDP: the interface of a protocol, and the options that all their URLs have.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Waits in the kernel for data, for a time limit, or for a stop from any thread or a signal handler.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The packet of the plugin by the present owner of the protocol (doc/free_d.md, "TrackMen's packet"): read, never
 // written.
 #pragma once

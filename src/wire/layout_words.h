@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // All values of the parts of a layout, with their words in `layout=…` of a URL.
 #pragma once
 

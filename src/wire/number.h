@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Converts words of ASCII records to numbers with std::from_chars: exact, and the same in every locale. For all words;
 // plain_number.h is faster for common ones.
 #pragma once

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Encodes and decodes the payload that follows the header of a datagram: the functions of codec.h without a copy.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Reads common forms of numbers from a text in one pass; number.h reads all others.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The shortest text of a double that reads back to the same value, byte for byte as from std::to_chars.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Words in text. Spaces and case as for isspace and tolower in the "C" locale, independent of the current locale.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands of all pages as their marks say (see pages.py).
 
 A page is one session from top to bottom: commands find the files, parameters and background processes of earlier commands.

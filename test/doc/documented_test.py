@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Checks that the public headers are documented, and the links of the Doxygen pages: documented_test.py OUTPUT.
 
 Every class, struct, union, enumeration, type and function needs a comment. Exceptions: constructors, destructors and

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The example programs of the documentation, each in its process, with the trk tool at the other end.
 #include <csignal>
 

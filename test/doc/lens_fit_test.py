@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Compares the tables of doc/lens_fit.md with the results of lens_fit: lens_fit_test.py LENS_FIT DOC."""
 
 import csv

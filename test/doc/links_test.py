@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Checks the links and pictures of all pages: links_test.py [ROOT].
 
 Files must exist in the repository, with the same case, and be tracked by git if git is available; anchors must be the GitHub

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Checks that modules include exactly what the table doc/drawings/module_table.py allows: modules_test.py [ROOT].
 
 Every folder of src/ must be a module in the table, and every module a folder. Every include of another module must be

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Command blocks of a documentation page, and the marks that say how each is run.
 
 A page shows commands in `sh` fences. A comment before each, which readers do not see, is its mark:

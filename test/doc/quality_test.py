@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Whether the evidence in QUALITY_DECLARATION.md is there: quality_test.py [ROOT] [BUILD].
 
 A figure is followed by the command that gives it, `12 files <!-- = ls test | wc -l -->`: the number before must be what the

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands that a page shows for several machines, each machine in a separate network namespace.
 
 several_machines_test.py --root REPOSITORY --devel DEVEL [PAGE], by default doc/several_machines.md. The names of machines are

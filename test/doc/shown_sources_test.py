@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Checks that the pages show all programs of doc/examples, unchanged."""
 
 import pathlib
@@ -9,7 +10,9 @@ import pages
 
 def main():
     doc = pathlib.Path(__file__).resolve().parents[2] / "doc"
-    examples = {path.read_text(encoding="utf-8"): path.name for path in sorted((doc / "examples").glob("*.c"))}
+    # The first line is the copyright statement, which pages leave out.
+    examples = {path.read_text(encoding="utf-8").split("\n", 1)[1]: path.name
+                for path in sorted((doc / "examples").glob("*.c"))}
     shown, faults = set(), []
     for page in sorted(doc.glob("*.md")):
         for block in pages.blocks_of(page.read_text(encoding="utf-8")):

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Replacements in the commands of a page, for resources that a test machine cannot share. Nothing else is changed."""
 
 import contextlib

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a datagram of Free-D: strictly, and leniently with a lens table.
 #include <cstddef>
 #include <cstdint>

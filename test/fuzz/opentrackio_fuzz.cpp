@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a packet and as a sample: JSON where they begin with a brace, CBOR else. What is read can be written,
 // and is the same again.
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Runs a fuzz target over every file of a corpus, without a fuzzer.
 #include <algorithm>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a datagram: with nothing known of the sender, with its layout given, and twice.
 #include <cstddef>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any text as a line of a file: parameters, constants and format words.
 #include <cstddef>
 #include <cstdint>

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # pkg_config.sh TEST_FOLDER PLACE: programs compile, link and run with only the flags of pkg-config.
 set -eu
 consumer=$1/consumer

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # use.sh TEST_FOLDER: the installation below $PREFIX works alone, from PATH.
 set -eu
 PATH=$PREFIX/bin:$PATH

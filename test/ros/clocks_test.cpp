@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Clocks that are wrong, are set or stand still: what ros_to_trk sends from tf then, and what every node reports.
 #include <algorithm>
 #include <atomic>

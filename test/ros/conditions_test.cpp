@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Faulty records must not reach tf, and must be reported.
 #include <sensor_msgs/CameraInfo.h>
 #include <trk_bridge/CameraConstants.h>

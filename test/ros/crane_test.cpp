@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The crane's path out and back, as in launch/crane.launch: joints, tf, trk over UDP, tf.
 #include <algorithm>
 #include <chrono>

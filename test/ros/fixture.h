@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // For tests of complete nodes: a node in the process of the test, what it publishes, and ports to send to.
 #pragma once
 

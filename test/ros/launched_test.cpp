@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The launch files, included by the test's launch file with a take that is repeated for ever, and a nodelet manager.
 #include <optional>
 #include <string>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Every test program is a node with a separate ROS master.
 #include <cstdio>
 #include <cstdlib>

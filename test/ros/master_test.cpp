@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A ROS master that ends and starts again: nodes keep their connections, and report that they cannot be found by
 // others.
 #include <cstdio>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A nodelet waits for the one that had its name before.
 #include <atomic>
 #include <chrono>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // ros_to_trk: messages as input; UDP, shared memory and files as output; its start and end.
 #include <sys/resource.h>
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // ros_to_trk with `input: tf`: tf and CameraInfo as input; what is sent over UDP, and when.
 #include <algorithm>
 #include <chrono>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // ros_to_trk with sinks that fail or block: none disturbs another, each reports its problem, and the node ends soon.
 //
 // In private namespaces for networks and mounts, which need root.

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A camera recorded and played by the launch files, and conversions of the recordings by trk bag.
 #include <algorithm>
 #include <filesystem>

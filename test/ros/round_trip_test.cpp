@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The worked cases through both nodes: trk over UDP, topics and tf, trk over UDP.
 #include <chrono>
 #include <map>

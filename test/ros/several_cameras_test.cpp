@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Several cameras in one node, and sources other than UDP.
 #include <trk_bridge/CameraParams.h>
 

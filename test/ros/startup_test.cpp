@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // How trk_to_ros starts and ends: as a process, and with parameters that it refuses.
 #include "free_slot.h"
 #include "node_process.h"

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The complete path from a tracker to pictures of the test card: their content is compared with CameraInfo and tf, as
 // used by nodes that process images.
 #include <algorithm>

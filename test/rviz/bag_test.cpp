@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A bag that is played in a loop: time jumps back with every repetition. ROS time is the bag's.
 #include <csignal>
 #include <memory>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // How many frames per second rviz draws with many cameras, with everything shown; run it by hand while a ROS master is
 // running: with_display rviz_cameras_bench empty.rviz [CAMERAS [RATE]].
 #include <chrono>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Conditions of a display: it is added and removed, topics change, messages stop, are missing or invalid.
 #include <cmath>
 #include <limits>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Three poses and two lenses, from the tracker's datagram to the pixels on the screen.
 #include <algorithm>
 #include <atomic>

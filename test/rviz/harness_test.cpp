@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Checks the test support of this directory with rviz's displays, whose drawing is known.
 #include <ros/ros.h>
 #include <visualization_msgs/Marker.h>

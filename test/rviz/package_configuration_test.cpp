@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // rviz with the package's configuration: the crane's camera and the one that is received back.
 #include <string>
 #include <utility>

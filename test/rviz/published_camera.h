@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Publishes like a camera's node, but in the test, so that parts can be omitted or changed.
 #pragma once
 

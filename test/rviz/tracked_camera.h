@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A camera as sent by its tracker, and what it sees: with the document's equations, independent of the display's
 // calculation (no K, no D, no inversion).
 #pragma once

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Where rviz's orbit view shows a point: a camera without distortion, computed from the view's properties alone.
 #pragma once
 

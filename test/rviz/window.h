@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The program rviz in the test's process: its window on the X screen, its displays as a user sees them.
 #pragma once
 

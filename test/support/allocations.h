@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Counts the allocations of a test program. It defines malloc: only one source of a program may include it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A tracked camera in front of the test card: where it is at any time, and what its video shows then.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Properties that hold for any bytes that the codec decodes. The fuzz target and the tests check the same ones.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A sink whose writes wait for the test's permission, like a slow disk or segment.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Bytes in a block of exactly their size, so that reading past their end is an error that sanitizers see.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Messages of Free-D as bytes, and properties that hold for any bytes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Storage that does not respond, like a network share whose server is gone.
 #pragma once
 

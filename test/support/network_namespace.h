@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Private networks of a test, which can add and remove their interfaces.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Finds the centres of discs and lines in grey pictures without knowledge of how they were drawn.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Runs a program of the project as its user does: starts it, reads its output, sends signals, waits for its end.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Repeats an action at a rate in its thread, until this object is destroyed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Whether two cameras or two angles are equal, after a conversion that may lose digits or, with CameraInfo, a little of
 // the lens.
 #pragma once

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A directory that is removed at the end of its test, and files in it.
 #pragma once
 

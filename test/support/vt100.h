@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The part of a vt100 terminal that programs with a screen use: what its screen shows.
 #pragma once
 

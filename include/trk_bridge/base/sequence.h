@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Classifies records by their counters: next, late, duplicate, or a tracker that restarted; counts what was lost.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The lens as in CameraInfo: K and a fitted D (doc/lens_fit.md).
 #pragma once
 

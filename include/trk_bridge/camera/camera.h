@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The canonical camera, converted from and to parameter records of any format (doc/conventions.md). Both frames are
 // z-up, the pose is camera to studio, image distance and shift on the chip are in mm, blanks are considered.
 #pragma once

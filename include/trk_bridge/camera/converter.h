@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Converts the records of one camera to one format and stores its constants (doc/conventions.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Chip, pixels and lens: projection, pixel grid, distortion (doc/conventions.md, "Chip, blanks and pixels" to
 // "Distortion").
 #pragma once

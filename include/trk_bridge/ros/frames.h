@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Frames and signs on the ROS side. They are defined only here.
 //
 // The namespace is not called ros: generated messages are in trk_bridge and use the global namespace ros.

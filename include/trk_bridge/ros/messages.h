@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Conversion of records, calibrations and stamps to messages and back. Headers are left to the caller.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Sources: one interface for reading datagrams, shared memory and files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Encodes and decodes records in memory: datagrams, ASCII text and binary images. Nothing here allocates, locks, logs,
 // depends on the locale or reads beyond its input. All functions may be called from any thread on separate objects.
 #pragma once

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The list of the fields of the records: names, units, and the members that hold them. It exists only here.
 //
 // The functions for_each_... call `visit(field, member...)` for each field in the order of the ASCII records, with that

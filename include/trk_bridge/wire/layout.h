@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The layout of a binary record, which is the memory image of a struct of the sender (doc/wire_formats.md, "Binary").
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The two records of the trk protocol as values, independent of their encoding.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 #include <trk_bridge/camera/converter.h>
 #include <trk_bridge/wire/codec.h>
 #include <trk_bridge/wire/format.h>

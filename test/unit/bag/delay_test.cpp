@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The delay between video and tracking in bags, also with the program trk delay.
 #include "bag/delay_command.h"
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Reads a bag of trk with rosbag's Python library: read_by_python.py TRK TAKE."""
 import os
 import subprocess

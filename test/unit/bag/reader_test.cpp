@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The same messages in the same order as with rosbag's library; and memory that does not grow with the bag.
 #include <random>
 #include <set>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // What trk_to_ros with format:=as_received would have published, as rosbag's library reads it; and the conversion back
 // to the same take.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // From bags whose recorder died or whose end was lost, every complete record is read.
 #include <algorithm>
 #include <cstdint>

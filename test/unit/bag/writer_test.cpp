@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A bag is equal to what rosbag's library writes for the same messages, byte for byte.
 #include <sensor_msgs/CameraInfo.h>
 #include <tf2_msgs/TFMessage.h>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Which records of a camera are published: with counters of every kind, and with more than one sender.
 #include <algorithm>
 #include <cmath>

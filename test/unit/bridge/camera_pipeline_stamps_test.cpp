@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // How the stamps of a camera's pipeline are calculated.
 #include <algorithm>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Samples of a tracker as a network delivers them, on simulated time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Like a nodelet's library: loaded, used, and unloaded while a sink does not respond.
 #include <cerrno>
 #include <memory>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A camera in simulated time: what is sent is compared with the camera's true position.
 #include "bridge/paced_camera.h"
 

@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* With ONLY_READ the writing functions are not declared, so that a program may use their names for its own. */
 #define ONLY_READ
 #include "trk_file.h"

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // trkNetBufReadParams's ring with networks that lose, repeat, reorder and delay datagrams: random, but the same in
 // every run.
 #include "c_api/params_ring.h"

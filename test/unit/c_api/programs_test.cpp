@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Programs that use the interface, in C and C++, each in its own process.
 #include <gtest/gtest.h>
 

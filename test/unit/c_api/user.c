@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* A user of the whole interface, in what C89, C99 and C++98 have in common: user SLOT PORT FILE. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The drawing of a camera, compared with OpenCV's projection and the worked cases.
 #include "camera/figure.h"
 

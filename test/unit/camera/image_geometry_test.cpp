@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The published CameraInfo with image_geometry.
 #include <gmock/gmock.h>
 #include <image_geometry/pinhole_camera_model.h>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Cameras and constants over the full range of sensible values, the same in every run.
 #pragma once
 

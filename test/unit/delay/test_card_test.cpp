@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The meter with video of the test card whose delay is known.
 #include <functional>
 #include <random>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The parameters of test_card: defaults, and errors that name the key, the value and what is allowed.
 #include "demo/test_card_parameters.h"
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The drawing is where the camera sees it: points compared with the worked cases, lines with OpenCV and the fitted
 // distortion.
 #include "demo/test_card_picture.h"

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The visible part of the card: everything in front of the camera that its lens maps into the picture, and nothing
 // else.
 #include "demo/test_card_view.h"

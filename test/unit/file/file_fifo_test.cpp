@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Takes that are played while another program writes them to a FIFO.
 #include <chrono>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Free-D through its URLs: options, sources, sinks.
 #include <gmock/gmock.h>
 

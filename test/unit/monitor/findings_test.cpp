@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Ten faults of real studios: whether the monitor names each as the first one within five seconds.
 //
 // Datagrams are received by a real UDP source on the loopback. Times are simulated, so that rates and stalls are exact

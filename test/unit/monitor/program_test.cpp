@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // `trk monitor`, run like a user does: on a terminal, and into a pipe.
 #include <csignal>
 #include <cstdlib>

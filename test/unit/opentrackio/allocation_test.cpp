@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Only the library that reads JSON and CBOR allocates, for long names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The samples of records, read by other code and by this project's.
 #include "opentrackio/encoder.h"
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Prints the samples of the worked cases, one line of JSON each: in both encodings, all profiles and models, with and
 // without times. CBOR is printed as JSON.
 #include <iostream>

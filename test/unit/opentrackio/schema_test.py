@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Validates the output of print_samples with JSON schemas: ours for the requirements of a sender, and the standard's if its
 folder is given. Usage: schema_test.py PRINT_SAMPLES REQUIRED_JSON [FOLDER]"""
 

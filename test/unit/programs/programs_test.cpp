@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The document's six test programs, run like a user does.
 #include <cmath>
 #include <csignal>

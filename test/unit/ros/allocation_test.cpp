@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The complete path of a sample, in and out, without roscpp: it allocates nothing, and a set is one system call.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Which fields of a CameraInfo message belong to its lens.
 #include "ros/camera_info.h"
 

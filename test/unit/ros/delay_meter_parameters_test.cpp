@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The parameters of delay_meter: defaults, and errors that name the key, the value and what is allowed.
 #include "ros/delay_meter_parameters.h"
 

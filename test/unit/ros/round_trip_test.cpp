@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // trk to ROS and back is the same camera: through CameraParams, and through tf and CameraInfo.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The status texts of a display in each of its conditions.
 #include "rviz/camera_status.h"
 

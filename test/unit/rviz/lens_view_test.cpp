@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Which lens is drawn, when it is recomputed, and why some cannot be drawn.
 #include "rviz/lens_view.h"
 

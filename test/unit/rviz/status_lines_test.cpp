@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A status is shown at once when its level changes, and less often when only its text changes.
 #include "rviz/status_lines.h"
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // When a reader polls a writer that wakes no readers, in simulated time: writers, sleeps and costs are models of the
 // test.
 #include <algorithm>

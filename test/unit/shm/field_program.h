@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // An existing program at a slot: it opens, writes and closes like the protocol's original sources, in its layout,
 // independent of the size of an existing segment.
 #pragma once

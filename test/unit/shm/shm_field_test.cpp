@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Existing programs together with this package: which may start first, what a program of another generation writes,
 // which are counted.
 #include <chrono>

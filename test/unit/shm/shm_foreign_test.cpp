@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Foreign or ambiguous files and segments are not changed, and are reported.
 #include <cerrno>
 #include <cstring>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Slots in arbitrary states: whatever is done to them, sources and sinks check once, continue, and can be stopped.
 #include <algorithm>
 #include <atomic>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Segments byte for byte: contents of existing programs are read, and the same bytes are written.
 #include <cstring>
 #include <fstream>

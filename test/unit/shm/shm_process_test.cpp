@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Several processes on one slot: fast ones, and ones that are killed at any moment.
 #include <array>
 #include <chrono>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Sources and sinks on a slot: which create, follow, count and remove a segment, and what they do not touch.
 #include <chrono>
 #include <cstring>

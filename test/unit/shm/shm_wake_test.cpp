@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Writers of this package wake waiting readers; existing programs do not know about waiting readers.
 #include <array>
 #include <atomic>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The version, help, manual page, completions and command line errors of trk.
 #include <algorithm>
 #include <fstream>

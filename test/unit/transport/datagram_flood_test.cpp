@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A sender that never pauses and sends nothing useful: a time limit and stop() still end receive().
 #include <netinet/in.h>
 #include <sys/socket.h>

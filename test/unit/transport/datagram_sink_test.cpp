@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A sink with a small test protocol: a record may become several datagrams or none; constants are repeated.
 #include "transport/datagram.h"
 

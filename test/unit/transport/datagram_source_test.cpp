@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A source with a small test protocol: the possible results of a datagram.
 #include "transport/datagram.h"
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // What the UDP source asks of the kernel: how large a buffer, and how many system calls.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

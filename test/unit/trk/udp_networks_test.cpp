@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Interfaces, addresses and routes that are removed and added, in private network namespaces: after every event,
 // records are received again automatically.
 #include <gmock/gmock.h>

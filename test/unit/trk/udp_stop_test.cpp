@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Ending a wait in the kernel from a thread and from a signal handler; and a tracker in another process.
 #include <gtest/gtest.h>
 #include <signal.h>

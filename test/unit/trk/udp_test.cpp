@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // The UDP source with plain sockets on the loopback.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // All reasons for which bytes cannot be decoded, or a record cannot be encoded.
 #include "trk_bridge/wire/fault.h"
 

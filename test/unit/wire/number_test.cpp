@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Numbers in text: as short as possible, exact, and the same in every locale.
 #include <gmock/gmock.h>
 

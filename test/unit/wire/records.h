@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Records of all kinds for the tests of the wire layer, and comparisons of them.
 #pragma once
 
