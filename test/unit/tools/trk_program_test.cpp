@@ -233,9 +233,8 @@ TEST_F(TrkRecording, AFifoWithoutReaderBlocksNobody) {
   const std::string output = relay->rest_of_err();
   EXPECT_EQ(relay->wait(), 1);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
-  EXPECT_THAT(output,
-              testing::ContainsRegex(
-                  "error: file .*fifo: it does not respond and was abandoned; [0-9]+ queued records are lost"));
+  EXPECT_THAT(output, testing::ContainsRegex(
+                          "error: file .*fifo: it does not respond and was abandoned; [0-9]+ queued records are lost"));
 }
 
 TEST(TrkRelay, ClosesAFileProperlyOnSigterm) {
