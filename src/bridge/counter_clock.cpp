@@ -140,7 +140,7 @@ double CounterClock::outlier_limit() const noexcept { return std::max(outlier * 
 
 void CounterClock::note(double error, double counts, double elapsed, bool is_outlier) noexcept {
   const double passed = counts * interval_;
-  const double clipped = std::clamp(error, -outlier_limit(), gate());
+  const double clipped = std::clamp(error, -outlier_limit(), outlier_limit());
   gap_ -= gap_ * std::min(1.0, passed / closes_gap_in);
 
   const double weight = std::min(1.0, passed / recent);
