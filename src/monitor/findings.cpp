@@ -117,7 +117,7 @@ void add_own(std::vector<Finding>& found, const CameraReports& reports) {
   if (!reports.time_code.empty()) {
     bridge::warn(
         found, Condition::time_code_counter,
-        "the counter is a time code (" + reports.time_code + "), not a count: lost records are not visible in it");
+        "the counter is a time code (" + reports.time_code + "), not a count, so lost records are not visible in it");
   }
   if (camera.sequence.accepted == 0) return;
   if (camera.has_lens && camera.constants == bridge::ConstantsOrigin::none) {

@@ -126,7 +126,7 @@ TEST_F(FromParams, APresetSetsTheFormatAndOmitsAnIdThatTheReceiverCannotAccept) 
   publish(params(1, 7));
   ASSERT_TRUE(eventually([&] { return receiver.is_at(1); }));
   EXPECT_EQ(receiver.params.back().id, 0u);
-  EXPECT_TRUE(diagnostics.reports(status_name(receiver.url()), DiagnosticStatus::OK, "id 5 is left out"));
+  EXPECT_TRUE(diagnostics.reports(status_name(receiver.url()), DiagnosticStatus::OK, "id 5 is not sent"));
 }
 
 TEST_F(FromParams, OrderAndCountersOfABurstAreKept) {

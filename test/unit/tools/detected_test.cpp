@@ -115,7 +115,7 @@ TEST(Detected, MissingConstantsAndSeveralCamerasAreNamed) {
   EXPECT_THAT(lines_of(one), Contains(HasSubstr("CameraInfo needs them")));
   EXPECT_THAT(lines_of(one), Contains(HasSubstr("image distance 42.000 mm")));
   EXPECT_THAT(launch_line(one), HasSubstr(" id:=3"));
-  EXPECT_THAT(doubts_of(one), ElementsAre(HasSubstr("only checksum=lenient takes"), HasSubstr("allow=ADDRESS")));
+  EXPECT_THAT(doubts_of(one), ElementsAre(HasSubstr("only checksum=lenient accepts"), HasSubstr("allow=ADDRESS")));
 }
 
 }  // namespace
