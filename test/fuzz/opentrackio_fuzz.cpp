@@ -3,12 +3,11 @@
 // and is the same again.
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <variant>
 
+#include "fuzz.h"
 #include "opentrackio/decoder.h"
 #include "opentrackio/encoder.h"
 
@@ -17,30 +16,24 @@ namespace {
 using namespace trk_bridge;
 using namespace trk_bridge::opentrackio;
 
-void claim(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "broken: %s\n", what);
-  std::abort();
-}
-
 /// What comes of all datagrams; their faults do not count.
 Records records_of(PacketEncoder& encoder, const wire::CameraParams& params) {
   Records records;
   PacketDecoder decoder(false, 37);
   if (!encoder.begin(params)) return records;
   while (const auto datagram = encoder.next()) {
-    claim(datagram->size() <= header_size + most_payload, "a packet that is too long");
+    test::claim(datagram->size() <= header_size + most_payload, "a packet that is too long");
     decoder.begin(*datagram, {});
     transport::Sample sample;
     transport::Fault fault;
     for (auto next = decoder.next(sample, fault); next != transport::Decoder::Next::none;
          next = decoder.next(sample, fault)) {
-      claim(next == transport::Decoder::Next::sample, "a fault of what was written");
+      test::claim(next == transport::Decoder::Next::sample, "a fault of what was written");
       if (const auto* constants = std::get_if<wire::CameraConstants>(&sample.record)) records.constants = *constants;
       if (const auto* read = std::get_if<wire::CameraParams>(&sample.record)) records.params = *read;
     }
   }
-  claim(records.params == params, "other parameters than were written");
+  test::claim(records.params == params, "other parameters than were written");
   return records;
 }
 
@@ -53,7 +46,8 @@ void claim_round_trip(const Records& records) {
     const bool has_constants =
         records.constants && records.constants->id == records.params->id && encoder.begin(*records.constants);
     const Records again = records_of(encoder, *records.params);
-    if (again.params && has_constants) claim(again.constants == records.constants, "other constants than were written");
+    if (again.params && has_constants)
+      test::claim(again.constants == records.constants, "other constants than were written");
   }
 }
 

@@ -2,33 +2,26 @@
 // Any bytes as a datagram: with nothing known of the sender, with its layout given, and twice.
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <variant>
 
 #include "codec_claims.h"
+#include "fuzz.h"
 #include "trk_bridge/wire/codec.h"
 
 namespace {
 
 using namespace trk_bridge;
 
-void claim(const std::string& broken) {
-  if (broken.empty()) return;
-  std::fprintf(stderr, "broken: %s\n", broken.c_str());
-  std::abort();
-}
-
 void claim_with_given_layout(std::string_view datagram) {
   for (const auto generation : {wire::Generation::document, wire::Generation::identified}) {
     for (const auto abi : {wire::Abi::lp64, wire::Abi::llp64, wire::Abi::i386}) {
       for (const auto order : {wire::ByteOrder::little, wire::ByteOrder::big}) {
         wire::LayoutDetector detector({generation, abi, order});
-        claim(test::broken_claim(datagram, detector));
+        test::claim(test::broken_claim(datagram, detector));
         const auto seen = detector.seen();
-        if (seen && *seen != wire::Layout{generation, abi, order}) claim("a layout other than the one given");
+        if (seen && *seen != wire::Layout{generation, abi, order}) test::claim("a layout other than the one given");
       }
     }
   }
@@ -38,9 +31,9 @@ void claim_with_given_layout(std::string_view datagram) {
 void claim_same_again(std::string_view datagram, wire::LayoutDetector& detector) {
   const auto first = wire::decode(datagram, detector);
   const auto second = wire::decode(datagram, detector);
-  if (first.has_value() != second.has_value()) claim("a record once and a fault once");
+  if (first.has_value() != second.has_value()) test::claim("a record once and a fault once");
   if (first && (first->record != second->record || first->form.layout != second->form.layout)) {
-    claim("two records from the same bytes");
+    test::claim("two records from the same bytes");
   }
 }
 
@@ -49,7 +42,7 @@ void claim_same_again(std::string_view datagram, wire::LayoutDetector& detector)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view datagram(reinterpret_cast<const char*>(data), size);
   wire::LayoutDetector detector;
-  claim(test::broken_claim(datagram, detector));
+  test::claim(test::broken_claim(datagram, detector));
   claim_same_again(datagram, detector);
   if (datagram.size() > wire::header_size && datagram[7] == 'B') claim_with_given_layout(datagram);
   return 0;

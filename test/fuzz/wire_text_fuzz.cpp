@@ -2,12 +2,11 @@
 // Any text as a line of a file: parameters, constants and format words.
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "codec_claims.h"
+#include "fuzz.h"
 #include "trk_bridge/wire/codec.h"
 #include "trk_bridge/wire/format.h"
 
@@ -15,28 +14,23 @@ namespace {
 
 using namespace trk_bridge;
 
-void claim(const std::string& broken) {
-  if (broken.empty()) return;
-  std::fprintf(stderr, "broken: %s\n", broken.c_str());
-  std::abort();
-}
-
 template <class Read>
 void claim_record(const Read& read) {
-  if (read) claim(test::broken_claim_of(*read, {wire::Encoding::ascii, {}}));
+  if (read) test::claim(test::broken_claim_of(*read, {wire::Encoding::ascii, {}}));
 }
 
 void claim_format_words(std::string_view text) {
   const auto mask = wire::format_from_words(text);
   if (!mask) return;
-  if ((*mask & ~wire::known_format_bits) != 0) claim("a bit that no word has");
+  if ((*mask & ~wire::known_format_bits) != 0) test::claim("a bit that no word has");
   const auto again = wire::format_from_words(wire::format_to_words(*mask));
-  if (!again || wire::format_to_words(*again) != wire::format_to_words(*mask)) claim("words that do not read back");
+  if (!again || wire::format_to_words(*again) != wire::format_to_words(*mask))
+    test::claim("words that do not read back");
 }
 
 void claim_layout_word(std::string_view text) {
   const auto choice = wire::layout_choice_from_word(text);
-  if (choice && text != "auto" && !choice->generation) claim("a layout without its generation");
+  if (choice && text != "auto" && !choice->generation) test::claim("a layout without its generation");
 }
 
 }  // namespace

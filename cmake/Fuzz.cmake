@@ -1,0 +1,10 @@
+# Everything that is built from here on can be fuzzed: the sanitizers and the coverage of libFuzzer see libraries, targets
+# and programs alike. Included before any target.
+if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  message(FATAL_ERROR "TRK_BRIDGE_FUZZ needs clang for libFuzzer; this compiler is ${CMAKE_CXX_COMPILER_ID}. "
+    "Name it with CC=clang CXX=clang++, or leave TRK_BRIDGE_FUZZ off: the corpora are replayed all the same.")
+endif()
+add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined
+  -fno-omit-frame-pointer)
+add_compile_definitions(_GLIBCXX_ASSERTIONS)
+add_link_options(-fsanitize=address,undefined)
