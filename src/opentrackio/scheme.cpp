@@ -167,9 +167,11 @@ tl::expected<SourceSettings, std::string> source_settings(const Url& url) {
                                "\": it selects the groups to join, but host \"" + settings.host +
                                "\" is given: remove one of them");
   }
+  const std::string named = settings.source != 0 ? "option source = \"" + std::to_string(settings.source) + "\""
+                                                 : "host \"" + settings.host + "\"";
   if (settings.source == 0) settings.source = source_of(settings.host);
   if (settings.source != 0 && settings.port == 0) {
-    return tl::make_unexpected("port = 0: with two groups, the port must be given");
+    return tl::make_unexpected(named + ": two groups are joined, which need a port other than 0");
   }
   return settings;
 }
