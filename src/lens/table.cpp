@@ -24,6 +24,11 @@ using Read = base::YamlRead<T>;
 constexpr double play = 0.01;        // of the range, at each end
 constexpr double count_step = 0.25;  // for the inverse
 
+// With such numbers nothing that is computed from them overflows, and counts are exact to more than count_step.
+constexpr double largest = 1e9;
+constexpr double smallest = 1 / largest;  // of numbers that must be more than 0
+constexpr double least_step = 1e-3;       // from one zoom to the next
+
 tl::unexpected<YamlFault> fault(const YAML::Mark& mark, std::string what) {
   return tl::unexpected(YamlFault{mark, std::move(what)});
 }
@@ -39,6 +44,10 @@ Read<double> number_of(const YamlValue& value) {
   if (!value.node.IsScalar() || !YAML::convert<double>::decode(value.node, number) || !std::isfinite(number)) {
     return fault(value.mark, value.key + ": must be a number");
   }
+  if (std::abs(number) > largest) {
+    return fault(value.mark, value.key + ": must be from " + text_of(-largest) + " to " + text_of(largest) + ", is " +
+                                 text_of(number));
+  }
   return number;
 }
 
@@ -52,6 +61,9 @@ Read<double> positive(const YAML::Node& map, const std::string& key) {
   const auto value = base::yaml_value(map, key);
   auto number = number_of(value);
   if (number && *number <= 0) return fault(value.mark, key + ": must be more than 0, is " + text_of(*number));
+  if (number && *number < smallest) {
+    return fault(value.mark, key + ": must be at least " + text_of(smallest) + ", is " + text_of(*number));
+  }
   return number;
 }
 
@@ -94,9 +106,9 @@ Read<double> image_distance_of(const YAML::Node& row, const std::optional<wire::
     return fault(row.Mark(), "either focal_length (mm) or field_of_view (degrees) must be given");
   }
   if (has_focal_length) return positive(row, "focal_length");
-  auto degrees = number_of(angle);
+  auto degrees = positive(row, "field_of_view");
   if (!degrees) return degrees;
-  if (!(*degrees > 0 && *degrees < 180)) {
+  if (*degrees >= 180) {
     return fault(angle.mark, "field_of_view: must be more than 0 and less than 180 degrees, is " + text_of(*degrees));
   }
   if (!constants) return fault(angle.mark, "field_of_view: needs constants with the chip width");
@@ -167,7 +179,11 @@ Read<std::vector<Point>> points_of(const YamlValue& rows, const std::optional<wi
         return fault(row.Mark(), "zoom " + text_of(point->at.zoom) + ": must be more than that of the row before, " +
                                      text_of(before.at.zoom));
       }
-      if (!is_monotonic_step(before.lens.image_distance, point->lens.image_distance, sign)) {
+      if (point->at.zoom - before.at.zoom < least_step) {
+        return fault(row.Mark(), "zoom " + text_of(point->at.zoom) + ": must be at least " + text_of(least_step) +
+                                     " more than that of the row before");
+      }
+      if (!goes_on(before.lens.image_distance, point->lens.image_distance, sign)) {
         return fault(row.Mark(), "zoom " + text_of(point->at.zoom) +
                                      ": the focal length must rise with zoom, or fall, " + "in all rows alike");
       }
