@@ -78,7 +78,8 @@ Result<Calibration> Calibrator::calibrate(const Lens& lens, const wire::CameraCo
   calibration.distortion.d = rescaled(fit_->distortion.d, fit_->undistorted_reach, lens.image_distance);
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(calibration.k.begin(), calibration.k.end(), finite) ||
-      !std::all_of(calibration.distortion.d.begin(), calibration.distortion.d.end(), finite)) {
+      !std::all_of(calibration.distortion.d.begin(), calibration.distortion.d.end(), finite) ||
+      !finite(calibration.distortion.residual)) {
     return tl::unexpected(CameraReason::no_fit);
   }
   return calibration;
