@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "bridge/counter_clock.h"
@@ -18,8 +19,10 @@ using test::claim;
 
 constexpr std::int64_t begin = 1'700'000'000'000'000'000;
 
-std::int64_t sum(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+/// Any time since 1970 that leaves a second to the end of the numbers.
+std::int64_t sum(std::int64_t time, std::int64_t by) {
+  constexpr std::uint64_t end = std::numeric_limits<std::int64_t>::max() - 1'000'000'000;
+  return static_cast<std::int64_t>((static_cast<std::uint64_t>(time) + static_cast<std::uint64_t>(by)) % end);
 }
 
 /// One camera, and what holds for every sample of it.
