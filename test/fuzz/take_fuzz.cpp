@@ -1,12 +1,8 @@
 // Any bytes as a take: read strictly, leniently, and played with the times of its fields.
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -16,30 +12,13 @@
 #include "file/scheme.h"
 #include "file/take.h"
 #include "fuzz.h"
+#include "memory_file.h"
 
 namespace {
 
 using namespace trk_bridge;
 using file::TakeReader;
 using test::claim;
-
-/// A file that is on no disk, with the contents that it was given last.
-class MemoryFile {
- public:
-  MemoryFile() : file_(::memfd_create("take", MFD_CLOEXEC)) {
-    if (file_ < 0) throw std::runtime_error("memfd_create failed");
-  }
-  std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
-  void write(std::string_view bytes) const {
-    const auto size = static_cast<ssize_t>(bytes.size());
-    if (::ftruncate(file_, 0) != 0 || ::pwrite(file_, bytes.data(), bytes.size(), 0) != size) {
-      throw std::runtime_error("the take cannot be written");
-    }
-  }
-
- private:
-  int file_;
-};
 
 /// A field or a line that is left out.
 using Line = std::variant<wire::CameraParams, transport::Fault>;
@@ -165,7 +144,7 @@ void claim_played(const Contents& contents, const std::string& path, double rate
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const MemoryFile take;
+  static const test::MemoryFile take;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   take.write(bytes);
   const std::string path = take.path();
