@@ -1,0 +1,155 @@
+"""The faults: a case is a function of the laboratory that returns a Result, and its first line says what is done."""
+
+import sys
+import time
+
+from laboratory import Result
+from processes import Process, wait_for
+from trackers import Path
+
+CASES = {}
+
+
+def case(function):
+    CASES[function.__name__] = function
+    return function
+
+
+def over(laboratory, path, seconds=(3, 60), **options):
+    """A camera over this path."""
+    with laboratory.camera(path, **options) as camera:
+        camera.send(laboratory.choose(*seconds))
+        return camera.result()
+
+
+@case
+def nothing_wrong(laboratory):
+    """Nothing is wrong: the measure of the others."""
+    result = over(laboratory, Path())
+    result.expect(result.lost == 0, f"{result.lost} lost")
+    return result
+
+
+@case
+def loss(laboratory):
+    """One set in five is lost."""
+    return over(laboratory, Path(loss=0.2))
+
+
+@case
+def duplicates(laboratory):
+    """One set in five comes twice."""
+    return over(laboratory, Path(twice=0.2))
+
+
+@case
+def reordering(laboratory):
+    """One set in ten comes after up to five later ones."""
+    return over(laboratory, Path(late=0.1))
+
+
+@case
+def jitter(laboratory):
+    """Each set is 30 to 60 ms late, so that they overtake each other."""
+    return over(laboratory, Path(delay=0.03, jitter=0.03))
+
+
+@case
+def bad_network(laboratory):
+    """All of it at once."""
+    return over(laboratory, Path(loss=0.1, twice=0.1, late=0.05, delay=0.01, jitter=0.02, corrupt=0.05))
+
+
+@case
+def corruption(laboratory):
+    """One set in five is cut, or has a byte that is no number."""
+    return over(laboratory, Path(corrupt=0.2))
+
+
+@case
+def corruption_of_freed(laboratory):
+    """Free-D: any byte of one message in five becomes any other."""
+    return over(laboratory, Path(corrupt=0.2), protocol="freed")
+
+
+@case
+def corruption_of_opentrackio(laboratory):
+    """OpenTrackIO: any byte of one packet in five becomes any other."""
+    return over(laboratory, Path(corrupt=0.2), protocol="opentrackio")
+
+
+@case
+def rubbish(laboratory):
+    """100,000 datagrams a second that are no records, beside 100 Hz."""
+    with laboratory.camera() as camera:
+        said = []
+        seconds = laboratory.choose(3, 30)
+        tracker = camera.tracker()
+        Process([sys.executable, "-B", sys.path[0] + "/trackers.py", camera.port, 100000, seconds, laboratory.seed],
+                laboratory.log("rubbish"), said.append).wait(seconds + 60)
+        ended = time.monotonic()
+        number = tracker.sent
+        wait_for(lambda: camera.arrivals.has_passed(1, number), "sets arrive after the rubbish")
+        recovery = camera.arrivals.last_time - ended
+        camera.sent += tracker.stop()
+        result = camera.result()
+        values = camera.settled()
+    count, took = said[0].split()
+    drops, malformed, received = (int(values[key]) for key in ("kernel drops", "malformed", "received"))
+    constants = camera.sent // camera.RATE + 1
+    missing = int(count) + camera.sent - malformed - drops - received
+    result.recovered(recovery)
+    result.note = f"{int(count) / float(took):,.0f}/s, {drops} dropped by the kernel"
+    result.expect(-constants <= missing <= 0,
+                  f"of {count} and {camera.sent} sets: {malformed} malformed, {drops} dropped, {received} received")
+    result.expect(drops > 0 or result.lost == 0, f"{result.lost} lost though the kernel dropped none")
+    return result
+
+
+@case
+def sender_restarts(laboratory):
+    """The sender ends, and begins again at 1 with another port."""
+    with laboratory.camera(Path()) as camera:
+        return restarts(laboratory, camera, laboratory.choose(3, 30))
+
+
+def restarts(laboratory, camera, times):
+    camera.send(1)
+    recovery = 0
+    for _ in range(times):
+        tracker = camera.tracker()
+        begun = time.monotonic()
+        wait_for(lambda run=tracker.run: camera.arrivals.has_passed(run, 0), "the new run arrives")
+        recovery = max(recovery, camera.arrivals.last_time - begun)
+        laboratory.pause(0.5)
+        camera.sent += tracker.stop()
+    result = camera.result()
+    result.recovered(recovery)
+    return result
+
+
+@case
+def two_senders(laboratory):
+    """A second sender of the same camera: the first is followed until it is silent, then the second."""
+    with laboratory.camera() as camera:
+        first = camera.tracker()
+        wait_for(lambda: camera.arrivals.count > 0, "the first arrives")
+        second = camera.tracker()
+        laboratory.pause(laboratory.choose(1.5, 10))
+        camera.sent = first.stop()
+        silent = time.monotonic()
+        ignored = second.sent
+        wait_for(lambda: len(camera.arrivals.runs) > 1, "the second is followed")
+        recovery = camera.arrivals.last_time - silent
+        camera.sent += second.stop()
+        result = camera.result()
+        values = camera.settled()
+    result.recovered(recovery)
+    result.expect(camera.arrivals.runs == [1, 2], f"followed were {camera.arrivals.runs}")
+    result.expect(values["failovers"] == "1", f"failovers: {values['failovers']}")
+    # Every set of the second sender is received or foreign.
+    foreign = camera.sent - int(values["received"]) - int(values["lost"])
+    result.expect(int(values["foreign"]) >= ignored, f"foreign: {values['foreign']}, ignored were {ignored}")
+    result.expect(abs(int(values["foreign"]) - foreign) <= second.sent // camera.RATE + 1,
+                  f"foreign: {values['foreign']} of {foreign}")
+    return result

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""Makes faults on purpose, on a machine of its own, and judges what arrives (doc/evidence.md)."""
+
+import argparse
+import pathlib
+import random
+import sys
+import tempfile
+import time
+import traceback
+
+import own_machine
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+
+
+def table(rows):
+    """Lines with columns that are aligned."""
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    return ["  ".join(text.ljust(width) if column in (0, len(row) - 1) else text.rjust(width)
+                      for column, (text, width) in enumerate(zip(row, widths))).rstrip() for row in rows]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="the build whose programs are tried")
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--short", action="store_true", help="at most two minutes; the default")
+    form.add_argument("--long", action="store_true", help="with 1,000 kills")
+    parser.add_argument("--seed", type=int, help="of what is random; default: another one each time")
+    parser.add_argument("--list", action="store_true", help="list the cases")
+    parser.add_argument("--recovery", type=float, help="seconds that a recovery may take; default: 2 with --long, else 10")
+    parser.add_argument("cases", nargs="*", metavar="CASE", help="default: all")
+    options = parser.parse_args()
+    own_machine.enter(ROOT, options.build)
+    # With what ROS is imported, which --help does without.
+    from cases import CASES
+    from laboratory import Laboratory, Result
+    from processes import Failure
+
+    if options.list:
+        for name, function in CASES.items():
+            print(f"{name:28} {function.__doc__}")
+        return 0
+    unknown = [name for name in options.cases if name not in CASES]
+    if unknown:
+        parser.error(f"no case {', '.join(unknown)}; there are {', '.join(CASES)}")
+    seed = options.seed if options.seed is not None else random.SystemRandom().randrange(1 << 32)
+    print(f"seed {seed}", flush=True)
+    begin = time.monotonic()
+    rows = [("case", "sent", "arrived", "lost", "duplicates", "recovery", "result")]
+    failed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        laboratory = Laboratory(options.build, ROOT, pathlib.Path(folder), seed, options.long,
+                                options.recovery or (2 if options.long else 10))
+        for name in options.cases or CASES:
+            laboratory.rng = random.Random(f"{seed} {name}")
+            left = []
+            try:
+                with laboratory.leaving_nothing(left):
+                    result = CASES[name](laboratory)
+            except (Failure, Exception) as error:
+                traceback.print_exc()
+                result = Result(wrong=[str(error)])
+            result.wrong += left
+            if result.recovery is not None:
+                result.expect(result.recovery <= laboratory.most_recovery,
+                              f"recovery after {result.recovery:.2f} s, allowed {laboratory.most_recovery:g} s")
+            failed += bool(result.wrong)
+            rows.append((name, str(result.sent), str(result.arrived), str(result.lost), str(result.duplicates),
+                         "" if result.recovery is None else f"{result.recovery:.2f} s",
+                         "; ".join(result.wrong) or "; ".join(filter(None, ["ok", result.note]))))
+            print(f"{name}: {rows[-1][-1]}", file=sys.stderr, flush=True)
+    print("\n".join(table(rows)))
+    print(f"{time.monotonic() - begin:.0f} s")
+    print(f"{len(rows) - 1 - failed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

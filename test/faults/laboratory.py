@@ -1,0 +1,244 @@
+"""What every case uses: a master, nodes, cameras on the way into ROS, and the judgement of what arrived."""
+
+import contextlib
+import itertools
+import random
+import time
+from dataclasses import dataclass, field
+from typing import Optional
+
+import rospy
+
+import own_machine
+import sets
+from processes import Failure, Programs, free_port, wait_for
+from ros_side import Diagnostics, Listener, Master
+from trackers import Forwarder, Tracker, damage_byte, damage_text
+
+
+@dataclass
+class Result:
+    """A row of the table. `wrong` is empty where all is as it must be."""
+    sent: int = 0
+    arrived: int = 0
+    lost: int = 0  # sent and not arrived
+    duplicates: int = 0  # that came and were dropped
+    recovery: Optional[float] = None  # s, the longest
+    wrong: list = field(default_factory=list)
+    note: str = ""
+
+    def expect(self, is_true, text):
+        if not is_true:
+            self.wrong.append(text)
+
+    def take(self, arrivals):
+        self.arrived += arrivals.count
+        self.wrong += arrivals.wrong
+
+    def recovered(self, seconds):
+        self.recovery = max(self.recovery or 0.0, seconds)
+
+
+@dataclass
+class Counts:
+    """What /diagnostics must show for sets that came in this order: [(run, number), …] of one sender at a time, whose next
+    run is a restart."""
+    received: int = 0
+    lost: int = 0
+    duplicate: int = 0
+    late: int = 0
+    restarts: int = 0
+
+    @classmethod
+    def of(cls, emitted):
+        counts, came, newest = cls(), set(), None
+        for run, number in emitted:
+            if newest is None or run != newest[0]:
+                counts.restarts += newest is not None
+                counts.received += 1
+                came, first, newest = {number}, number, (run, number)
+            elif number > newest[1]:
+                counts.received += 1
+                counts.lost += number - newest[1] - 1
+                newest = (run, number)
+            elif number in came:
+                counts.duplicate += 1
+            else:
+                counts.late += 1
+                counts.lost -= number > first
+            came.add(number)
+        return counts
+
+
+# Keys of /diagnostics for what Counts has.
+_SHOWN = {"received": "received", "lost": "lost", "duplicate": "duplicate", "late": "out of order",
+          "restarts": "restarts", "malformed": "malformed"}
+
+
+class Laboratory:
+    """`most_recovery`: s."""
+
+    def __init__(self, build, root, folder, seed, is_long, most_recovery):
+        self.programs = Programs(build)
+        self.folder = folder
+        self.lens = root / "config/lens_example.yaml"
+        self.seed, self.is_long, self.most_recovery = seed, is_long, most_recovery
+        self.rng = random.Random(seed)
+        self.master = Master(folder)
+        rospy.init_node("faults", anonymous=True, disable_signals=True, disable_rosout=True)
+        self.diagnostics = Diagnostics()
+        self._names = (f"camera{number}" for number in itertools.count(1))
+
+    def next_name(self):
+        return next(self._names)
+
+    def choose(self, short, long):
+        """By the form of the run."""
+        return long if self.is_long else short
+
+    @staticmethod
+    def pause(seconds):
+        time.sleep(seconds)
+
+    def log(self, name):
+        return self.folder / f"{name}.log"
+
+    @contextlib.contextmanager
+    def node(self, program, namespace, **parameters):
+        """A node with these parameters that has reported its state; ends in order."""
+        name = f"{namespace}/{program}"
+        rospy.set_param(name, {"diagnostic_period": 0.2, **parameters})
+        node = Node(self, program, name)
+        try:
+            yield node
+            node.end()
+        finally:
+            node.process.kill()
+            rospy.delete_param(name)
+
+    def camera(self, path=None, **options):
+        return Camera(self, path, **options)
+
+    @contextlib.contextmanager
+    def leaving_nothing(self, wrong):
+        """Whether all is as before afterwards."""
+        before = own_machine.everything()
+        yield
+        try:
+            wait_for(lambda: own_machine.everything() <= before, "nothing is left behind", 5)
+        except Failure:
+            wrong += [f"left behind: {what}" for what in sorted(own_machine.everything() - before)]
+
+
+class Node:
+    """A node as a process that may be killed and started again."""
+
+    def __init__(self, laboratory, program, name):
+        self.name = name
+        self._laboratory, self._program = laboratory, program
+        self.start()
+
+    def start(self):
+        laboratory = self._laboratory
+        self.process = laboratory.programs.node(self._program, self.name, laboratory.log(self._program))
+
+    def end(self):
+        if self.process.end() != 0:
+            raise Failure(f"{self.name} ended with {self.process.code()}: {self.process.said()[-1000:]}")
+
+    def wait(self, subject, condition, what):
+        return self._laboratory.diagnostics.wait(f"{self.name}: {subject}", condition, what)
+
+
+class Camera(contextlib.AbstractContextManager):
+    """A camera on its way into ROS: tracker, path with faults, trk_to_ros, subscriber. `protocol`: trk, freed or opentrackio.
+
+    send() as often as wanted, then result() once.
+    """
+
+    RATE = 100  # Hz
+
+    def __init__(self, laboratory, path=None, protocol="trk", source=None, rate=RATE, **parameters):
+        self._laboratory, self._rate, self._protocol = laboratory, rate, protocol
+        self.name = laboratory.next_name()
+        self.port = free_port()
+        self._stack = contextlib.ExitStack()
+        with self._stack as stack:
+            scheme = {"trk": "udp"}.get(protocol, protocol)
+            lens = "?lens=" + str(laboratory.lens) if protocol == "freed" else ""
+            source = source or f"{scheme}://127.0.0.1:{self.port}{lens}"
+            self.node = stack.enter_context(
+                laboratory.node("trk_to_ros", "/" + self.name, source=source, **parameters))
+            self.node.wait(self.name, lambda *_: True, "the node reports")
+            self.arrivals = sets.Arrivals(1, protocol != "freed", sets.FREE_D_ERROR if protocol == "freed" else None)
+            self._listener = Listener(f"/{self.name}/params", self.arrivals)
+            stack.callback(self._listener.close)
+            wait_for(self._listener.is_connected, "the subscriber is connected")
+            self.forwarder = self.relay = None
+            self.entrance = self.port
+            if path is not None:
+                damage = damage_text if protocol == "trk" else damage_byte
+                self.forwarder = Forwarder(self.port, path, random.Random(laboratory.rng.random()), damage)
+                self.entrance = self.forwarder.port
+            if protocol != "trk":
+                port = free_port()
+                options = f"{lens or '?'}&id=1".replace("?&", "?")
+                self.relay = laboratory.programs.relay(
+                    f"udp://127.0.0.1:{port}", f"{scheme}://127.0.0.1:{self.entrance}{options}",
+                    log=laboratory.log("relay"))
+                stack.callback(self.relay.kill)
+                self.entrance = port
+                wait_for(lambda: "reading udp" in self.relay.said(), "the relay listens")
+            self._stack = stack.pop_all()
+        self._runs = itertools.count(1)
+        self.sent = 0
+
+    def __exit__(self, *details):
+        return self._stack.__exit__(*details)
+
+    def tracker(self):
+        """A new sender, with a run of its own."""
+        return Tracker([(self.entrance, 1)], self._rate, next(self._runs))
+
+    def send(self, seconds):
+        """By a new sender, to its end."""
+        tracker = self.tracker()
+        self._laboratory.pause(seconds)
+        self.sent += tracker.stop()
+
+    def result(self):
+        """The judgement after the last was sent: what arrived, and that /diagnostics show what was done."""
+        result = Result(sent=self.sent)
+        if self.forwarder:
+            if self.relay:
+                self._laboratory.pause(0.3)
+            self.forwarder.stop()
+        values = self.settled()
+        result.take(self.arrivals)
+        result.lost = result.sent - result.arrived
+        result.duplicates = int(values["duplicate"])
+        result.expect(int(values["received"]) == self.arrivals.count,
+                      f"received {values['received']}, on the topic {self.arrivals.count}")
+        if self.forwarder:
+            self._compare(result, values)
+        return result
+
+    def settled(self):
+        """The values of the diagnostics when nothing comes any more: twice the same."""
+        seen = []
+
+        def stand(_, values):
+            if not seen or seen[-1] is not values:
+                seen.append(values)
+            return len(seen) > 2 and all(seen[-2][key] == values[key] for key in _SHOWN.values())
+        return self.node.wait(self.name, stand, "the diagnostics settle")
+
+    def _compare(self, result, values):
+        emitted = self.forwarder.emitted
+        expected = vars(Counts.of(emitted) if self._protocol == "trk" else Counts(received=len(emitted)))
+        expected["malformed"] = self.forwarder.corrupted
+        for name, key in _SHOWN.items():
+            # Without numbers (of trk only) nothing else is known.
+            if self._protocol == "trk" or name in ("received", "malformed"):
+                result.expect(int(values[key]) == expected[name],
+                              f"{key}: {values[key]} in the diagnostics, {expected[name]} was done")

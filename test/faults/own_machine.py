@@ -1,0 +1,84 @@
+"""A machine of a test's own: networks, shared memory, processes and /tmp that nobody else sees.
+
+They are namespaces of the kernel. What is left in them ends with the test, however that ends.
+"""
+
+import os
+import pathlib
+import subprocess
+import sys
+
+SKIPPED = 77  # SKIP_RETURN_CODE of ctest
+TEMPORARY = pathlib.Path("/tmp")
+HOME = TEMPORARY / "home"  # where programs of ROS write their logs
+_MARK = "TRK_BRIDGE_OWN_MACHINE"
+_UNSHARE = ["unshare", "--net", "--ipc", "--mount", "--pid", "--fork", "--kill-child", "--mount-proc"]
+
+
+def run(*command, **more):
+    return subprocess.run([str(word) for word in command], check=True, text=True, **more)
+
+
+def ip(*lines):
+    run("ip", "-batch", "-", input="\n".join(lines) + "\n")
+
+
+def enter(*kept):
+    """Starts this program again on a machine of its own, and returns there. `kept` are folders that stay as they are, also
+    below /tmp; nothing else of /tmp is seen. Without the right to do so it ends the program with SKIPPED."""
+    if os.environ.get(_MARK) is None:
+        probe = subprocess.run([*_UNSHARE, "true"], capture_output=True, text=True, check=False)
+        if probe.returncode != 0:
+            print(f"skipped: no namespaces here (root is needed): {probe.stderr.strip()}")
+            sys.exit(SKIPPED)
+        os.environ[_MARK] = "1"
+        os.execvp(_UNSHARE[0], [*_UNSHARE, sys.executable, "-B", *sys.argv])
+    del os.environ[_MARK]
+    _hide_temporary([pathlib.Path(folder).resolve() for folder in kept])
+    HOME.mkdir()
+    os.environ.update(HOME=str(HOME), ROS_HOME=str(HOME / ".ros"), ROS_IP="127.0.0.1", TMPDIR=str(TEMPORARY))
+    os.environ.pop("ROS_HOSTNAME", None)
+    # Groups are joined on the loopback where a URL names no interface.
+    ip("link set lo up multicast on", "route add 224.0.0.0/4 dev lo")
+
+
+def _hide_temporary(kept):
+    outside = pathlib.Path("/mnt")
+    run("mount", "--bind", TEMPORARY, outside)
+    run("mount", "-t", "tmpfs", "-o", "mode=1777", "none", TEMPORARY)
+    for folder in kept:
+        if TEMPORARY in folder.parents:
+            folder.mkdir(parents=True, exist_ok=True)
+            run("mount", "--bind", outside / folder.relative_to(TEMPORARY), folder)
+    run("umount", outside)
+
+
+def everything():
+    """What a test can leave behind: a set of texts."""
+    return _segments() | _files() | _processes() | _interfaces()
+
+
+def _segments():
+    lines = pathlib.Path("/proc/sysvipc/shm").read_text(encoding="ascii").splitlines()[1:]
+    return {f"shared memory segment {line.split()[1]}" for line in lines}
+
+
+def _files():
+    return {f"file {path}" for path in TEMPORARY.iterdir()}
+
+
+def _processes():
+    found = set()
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            line = (process / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace").strip()
+        except OSError:
+            continue  # it has just ended
+        if line and int(process.name) != os.getpid():
+            found.add(f"process {process.name}: {line}")
+    return found
+
+
+def _interfaces():
+    lines = run("ip", "-o", "link", capture_output=True).stdout.splitlines()
+    return {"interface " + line.split(": ")[1].split("@")[0] for line in lines}

@@ -1,0 +1,122 @@
+"""Programs as processes that a test starts, kills and waits for."""
+
+import contextlib
+import ctypes
+import json
+import pathlib
+import signal
+import socket
+import subprocess
+import threading
+import time
+
+PATIENCE = 60  # s, for what takes a moment, on a machine that is busy with other things
+
+
+class Failure(Exception):
+    """What a case has found, for a person."""
+
+
+def wait_for(condition, what, seconds=PATIENCE):
+    """The first true value of `condition`."""
+    deadline = time.monotonic() + seconds
+    while True:
+        value = condition()
+        if value:
+            return value
+        if time.monotonic() > deadline:
+            raise Failure(f"not within {seconds} s: {what}")
+        time.sleep(0.01)
+
+
+def free_port(kind=socket.SOCK_DGRAM):
+    """Nobody else is on this machine."""
+    with socket.socket(socket.AF_INET, kind) as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+def _end_with_parent():
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+
+
+class Process:
+    """A running program. What it prints on standard error goes into `log`; `on_line` gets the lines of standard output."""
+
+    def __init__(self, command, log, on_line=None):
+        self.command = [str(word) for word in command]
+        self.log = pathlib.Path(log)
+        with self.log.open("ab") as err:
+            self._popen = subprocess.Popen(self.command, stdin=subprocess.DEVNULL, stderr=err,
+                                           stdout=subprocess.PIPE if on_line else err)
+        self.pid = self._popen.pid
+        self._reader = None
+        if on_line:
+            self._reader = threading.Thread(target=self._read, args=(on_line,), daemon=True)
+            self._reader.start()
+
+    def _read(self, on_line):
+        for line in self._popen.stdout:
+            # A program that is killed can leave a line that is not whole.
+            if line.endswith(b"\n"):
+                on_line(line.decode())
+
+    def code(self):
+        """None while it runs."""
+        return self._popen.poll()
+
+    def kill(self):
+        """As kill -9."""
+        self._popen.kill()
+        self._wait()
+
+    def end(self, seconds=PATIENCE):
+        """As Ctrl-C. It must end well."""
+        with contextlib.suppress(ProcessLookupError):
+            self._popen.send_signal(signal.SIGINT)
+        try:
+            self._wait(seconds)
+        except subprocess.TimeoutExpired:
+            self.kill()
+            raise Failure(f"does not end within {seconds} s: {' '.join(self.command)}") from None
+        return self.code()
+
+    def wait(self, seconds=PATIENCE):
+        self._wait(seconds)
+        return self.code()
+
+    def said(self):
+        return self.log.read_text(encoding="utf-8", errors="replace")
+
+    def _wait(self, seconds=PATIENCE):
+        self._popen.wait(seconds)
+        if self._reader:
+            self._reader.join(seconds)
+
+
+class Programs:
+    """The programs of a build."""
+
+    def __init__(self, build):
+        self._folder = pathlib.Path(build) / "devel/lib/trk_bridge"
+
+    def path(self, name):
+        path = self._folder / name
+        if not path.exists():
+            raise SystemExit(f"no {path}: build first, or say --build")
+        return path
+
+    def relay(self, source, *sinks, log, options=()):
+        return Process([self.path("trk"), "relay", source, *sinks, *options], log)
+
+    def dump(self, source, arrivals, log):
+        """Gives all that comes to `arrivals`."""
+        def on_line(line):
+            record = json.loads(line)
+            if record["type"] == "params":
+                arrivals.add_json(record)
+        return Process([self.path("trk"), "dump", "--json", source], log, on_line)
+
+    def node(self, name, node_name, log):
+        namespace, _, base = node_name.rpartition("/")
+        return Process([self.path(name), f"__ns:={namespace}", f"__name:={base}"], log)

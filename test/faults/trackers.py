@@ -1,0 +1,186 @@
+"""What sends to the programs that are tested, and what stands between: a tracker, a bad path, rubbish."""
+
+import heapq
+import random
+import socket
+import threading
+import time
+from dataclasses import dataclass
+
+import sets
+
+
+class Tracker:
+    """Sends sets of cameras at a steady rate, as trk in datagrams, from a thread of its own. `targets`: (port of 127.0.0.1,
+    id of the camera) for each; `run` is in every set."""
+
+    def __init__(self, targets, rate=100, run=1):
+        self.run = run
+        self.sent = 0  # the number of the last set
+        self._targets, self._rate = targets, rate
+        self._ends = threading.Event()
+        self._thread = threading.Thread(target=self._send, daemon=True)
+        self._thread.start()
+
+    def stop(self):
+        self._ends.set()
+        self._thread.join()
+        return self.sent
+
+    def _send(self):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
+            begin = time.monotonic()
+            for number in range(1, 1 << 62):
+                if self._ends.wait(max(0.0, begin + number / self._rate - time.monotonic())):
+                    return
+                self.sent = number
+                for port, camera in self._targets:
+                    if number % self._rate == 1:
+                        _send_to(out, sets.constants(camera), port)
+                    _send_to(out, sets.params(camera, self.run, number), port)
+
+
+def _send_to(out, datagram, port):
+    try:
+        out.sendto(datagram, ("127.0.0.1", port))
+    except ConnectionRefusedError:
+        pass  # of the datagram before: nobody receives
+
+
+@dataclass(frozen=True)
+class Path:
+    """What happens to parameters on their way. Shares are of 1."""
+    loss: float = 0
+    twice: float = 0
+    late: float = 0  # held back until up to five others have passed
+    delay: float = 0  # s
+    jitter: float = 0  # s, up to so much more for each
+    corrupt: float = 0
+
+
+class Forwarder:
+    """A path between two ports of 127.0.0.1. It does what it is told to each set but the first, in a thread of its own, and
+    knows afterwards what it did."""
+
+    def __init__(self, to_port, path, rng, damage):
+        self.emitted = []  # (run, number) of the sets that were sent unharmed, in this order; None: of Free-D
+        self.corrupted = 0
+        self._path, self._rng, self._damage = path, rng, damage
+        self._to = ("127.0.0.1", to_port)
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.bind(("127.0.0.1", 0))
+        self.port = self._socket.getsockname()[1]
+        self._waiting = []  # (time, order, datagram): delayed
+        self._held = []  # [others to pass, datagram]
+        self._order = 0
+        self._ends = False
+        self._thread = threading.Thread(target=self._forward, daemon=True)
+        self._thread.start()
+
+    def stop(self):
+        """Sends what it still has. Its sender must have stopped before."""
+        self._ends = True
+        self._thread.join()
+        self._socket.close()
+
+    def _forward(self):
+        is_first = True
+        while True:
+            next_due = self._waiting[0][0] - time.monotonic() if self._waiting else 0.05
+            self._socket.settimeout(max(0.0005, min(0.05, next_due)))
+            try:
+                datagram = self._socket.recv(4096)
+                if is_first or not self._is_set(datagram):
+                    self._send(datagram)
+                    is_first = is_first and not self._is_set(datagram)
+                else:
+                    self._take(datagram)
+            except (TimeoutError, BlockingIOError):
+                if self._ends and not self._waiting:
+                    break
+            self._send_due()
+        for _, datagram in self._held:
+            self._send(datagram)
+
+    @staticmethod
+    def _is_set(datagram):
+        return sets.is_params(datagram) or not datagram.startswith(b"DMC01")
+
+    def _take(self, datagram):
+        path, chance = self._path, self._rng.random
+        if chance() < path.loss:
+            return
+        if chance() < path.corrupt:
+            self._socket.sendto(self._damage(datagram, self._rng), self._to)
+            self.corrupted += 1
+            return
+        if chance() < path.late:
+            self._held.append([self._rng.randint(1, 5), datagram])
+            return
+        if path.delay or path.jitter:
+            self._order += 1
+            due = time.monotonic() + path.delay + path.jitter * chance()
+            heapq.heappush(self._waiting, (due, self._order, datagram))
+        else:
+            self._send(datagram)
+        if chance() < path.twice:
+            self._send(datagram)
+
+    def _send_due(self):
+        while self._waiting and self._waiting[0][0] <= time.monotonic():
+            self._send(heapq.heappop(self._waiting)[2])
+
+    def _send(self, datagram):
+        self._socket.sendto(datagram, self._to)
+        if not self._is_set(datagram):
+            return
+        self.emitted.append(sets.number_of(datagram) if sets.is_params(datagram) else None)
+        for held in self._held:
+            held[0] -= 1
+        passed = [held for held in self._held if held[0] <= 0]
+        self._held = [held for held in self._held if held[0] > 0]
+        for _, late in passed:
+            self._send(late)
+
+
+def damage_text(datagram, rng):
+    """So that it shows: trk has no checksum, and a number that became another one is a number."""
+    last = datagram.rstrip(b"\0").rfind(b" ")
+    way = rng.randrange(3)
+    if way == 0:
+        return datagram[:rng.randrange(1, last)]
+    at = rng.randrange(8, last) if way == 1 else rng.randrange(0, 6)
+    return datagram[:at] + bytes([rng.choice(b"x?\x80\xff")]) + datagram[at + 1:]
+
+
+def damage_byte(datagram, rng):
+    """Any byte to any other: for protocols with a checksum."""
+    at = rng.randrange(len(datagram))
+    return datagram[:at] + bytes([datagram[at] ^ rng.randrange(1, 256)]) + datagram[at + 1:]
+
+
+def rubbish(port, rate, seconds, seed):
+    """Sends datagrams that are no records, as many a second, and returns how many it sent, and for how long (s)."""
+    rng = random.Random(seed)
+    beginnings = [b"", b"DMC01\0PA", b"DMC01\0PB", b"DMC01\0CA", b"DMC01\0XX", b"OTrk", b"\xd1"]
+    kinds = [rng.choice(beginnings) + rng.randbytes(rng.randrange(1, 400)) for _ in range(512)]
+    count, begin = 0, time.monotonic()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
+        out.connect(("127.0.0.1", port))
+        while True:
+            now = time.monotonic() - begin
+            if now >= seconds:
+                return count, now
+            for _ in range(min(500, int(now * rate) - count)):
+                try:
+                    out.send(kinds[count % len(kinds)])
+                except ConnectionRefusedError:
+                    pass
+                count += 1
+            time.sleep(0.0005)
+
+
+if __name__ == "__main__":
+    # As a process of its own: rubbish PORT RATE SECONDS SEED
+    import sys
+    print(*rubbish(*map(int, sys.argv[1:])))
