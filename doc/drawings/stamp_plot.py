@@ -4,7 +4,8 @@
 import csv
 import pathlib
 
-from .svg import GREY, INK, Picture
+from .axes import Axes
+from .svg import GREY, Picture
 
 FOLDER = pathlib.Path(__file__).resolve().parent.parent
 ARRIVAL, STAMP = "#ef6c00", "#1565c0"
@@ -24,25 +25,11 @@ def rows_of(case):
 
 
 def panel(picture, left, top, case, title, ticks, lowest, highest):
-    def at(x, y):
-        share = (min(max(y, lowest), highest) - lowest) / (highest - lowest)
-        return (left + WIDTH * (x - ticks[0]) / (ticks[-1] - ticks[0]), top + HEIGHT * (1 - share))
-
-    for tick in ticks:
-        x = at(tick, lowest)[0]
-        picture.line([(x, top), (x, top + HEIGHT)], "#dddddd", 0.8)
-        picture.text((x, top + HEIGHT + 16), f"{tick:g}", 11, INK, "middle")
-    for step in range(4):
-        value = lowest + (highest - lowest) * step / 3
-        y = at(ticks[0], value)[1]
-        picture.line([(left, y), (left + WIDTH, y)], "#dddddd", 0.8)
-        picture.text((left - 6, y + 4), f"{value:.0f}", 11, INK, "end")
-    picture.rectangle(left, top, WIDTH, HEIGHT, line_width=1)
-    picture.text((left, top - 10), title, 13, INK)
+    axes = Axes(picture, (left, top, WIDTH, HEIGHT), ticks, lowest, highest, title)
     rows = rows_of(case)
     for row in rows[::1 if len(rows) < 200 else 3]:
-        picture.dot(at(row["time"], row["arrival"]), 1.3, ARRIVAL)
-    picture.line([at(row["time"], row["stamp"]) for row in rows], STAMP, 1.5)
+        picture.dot(axes.at(row["time"], row["arrival"]), 1.3, ARRIVAL)
+    picture.line([axes.at(row["time"], row["stamp"]) for row in rows], STAMP, 1.5)
 
 
 def stamps():

@@ -1,8 +1,11 @@
 """The faults: a case is a function of the laboratory that returns a Result, and its first line says what is done."""
 
+import json
 import sys
 import time
 
+import own_machine
+from kills import kill, kill_recorders
 from laboratory import Result
 from processes import Process, wait_for
 from trackers import Path
@@ -153,3 +156,85 @@ def two_senders(laboratory):
     result.expect(abs(int(values["foreign"]) - foreign) <= second.sent // camera.RATE + 1,
                   f"foreign: {values['foreign']} of {foreign}")
     return result
+
+
+@case
+def interface_recreated(laboratory):
+    """The interface of a multicast group is removed and created again, under the sender and the node."""
+    group = "udp://239.9.9.9:7000?interface=trk0"
+    plug = ("link add trk0 type veth peer name far0", "link set trk0 up", "link set far0 up", "addr add 10.9.0.1/24 dev trk0")
+    own_machine.ip(*plug)
+    with laboratory.camera(source=group, sinks=[group]) as camera:
+        tracker = camera.tracker()
+        wait_for(lambda: camera.arrivals.count > 0, "sets arrive")
+        recovery = 0
+        for _ in range(laboratory.choose(2, 30)):
+            laboratory.pause(0.5)
+            own_machine.ip("link del trk0")
+            laboratory.pause(0.5)
+            own_machine.ip(*plug)
+            begun, number = time.monotonic(), tracker.sent
+            wait_for(lambda number=number: camera.arrivals.has_passed(1, number), "sets arrive again")
+            recovery = max(recovery, time.monotonic() - begun)
+        camera.sent = tracker.stop()
+        result = camera.result()
+        own_machine.ip("link del trk0")
+    result.recovered(recovery)
+    return result
+
+
+@case
+def disk_full(laboratory):
+    """A disk is full while a take is recorded, and has room again; beside it a camera goes on."""
+    disk = laboratory.new_folder()
+    own_machine.run("mount", "-t", "tmpfs", "-o", "size=64k", "none", disk)
+    (disk / "filler").write_bytes(bytes(48 << 10))
+    recorded = sets.Arrivals(1)
+    with laboratory.camera(sinks=[f"file:{disk}/take.trk", "live"]) as camera:
+        pass
+    own_machine.run("umount", disk)
+    return Result()
+
+
+@case
+def master_restarts(laboratory):
+    """The master is killed, and started again later."""
+    with laboratory.camera() as camera:
+        tracker = camera.tracker()
+        wait_for(lambda: camera.arrivals.count > 0, "sets arrive")
+        laboratory.master.kill()
+        camera.node.wait("ROS", lambda message, _: "does not answer" in message, "the node reports that it is gone")
+        number = tracker.sent
+        wait_for(lambda: camera.arrivals.has_passed(1, number), "sets arrive without a master")
+        laboratory.restart_master()
+        begun = time.monotonic()
+        camera.node.wait("ROS", lambda message, _: "does not know" in message, "the node reports the new master")
+        camera.sent = tracker.stop()
+        result = camera.result()
+    result.note = f"reported {time.monotonic() - begun:.1f} s after the restart"
+    result.expect(result.lost == 0, f"{result.lost} lost")
+    return result
+
+
+@case
+def kills_udp(laboratory):
+    """kill -9 of any process, over UDP."""
+    return kill(laboratory, "udp", laboratory.choose(6, 300))
+
+
+@case
+def kills_shm(laboratory):
+    """kill -9 of any process, over shared memory."""
+    return kill(laboratory, "shm", laboratory.choose(6, 300))
+
+
+@case
+def kills_fifo(laboratory):
+    """kill -9 of any process, over FIFOs."""
+    return kill(laboratory, "file", laboratory.choose(6, 200))
+
+
+@case
+def kills_recorder(laboratory):
+    """kill -9 of who records a take; the next one recovers it."""
+    return kill_recorders(laboratory, laboratory.choose(6, 200))

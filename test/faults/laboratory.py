@@ -88,6 +88,7 @@ class Laboratory:
         rospy.init_node("faults", anonymous=True, disable_signals=True, disable_rosout=True)
         self.diagnostics = Diagnostics()
         self._names = (f"camera{number}" for number in itertools.count(1))
+        self._logs = itertools.count(1)
 
     def next_name(self):
         return next(self._names)
@@ -96,25 +97,40 @@ class Laboratory:
         """By the form of the run."""
         return long if self.is_long else short
 
+    def new_folder(self):
+        folder = self.folder / f"folder{next(self._logs)}"
+        folder.mkdir()
+        return folder
+
+    @staticmethod
+    def set_parameters(node, **parameters):
+        rospy.set_param(node, {"diagnostic_period": 0.2, **parameters})
+
     @staticmethod
     def pause(seconds):
         time.sleep(seconds)
 
     def log(self, name):
-        return self.folder / f"{name}.log"
+        """A new file."""
+        return self.folder / f"{next(self._logs)}_{name}.log"
 
     @contextlib.contextmanager
     def node(self, program, namespace, **parameters):
         """A node with these parameters that has reported its state; ends in order."""
         name = f"{namespace}/{program}"
-        rospy.set_param(name, {"diagnostic_period": 0.2, **parameters})
+        self.set_parameters(name, **parameters)
         node = Node(self, program, name)
         try:
             yield node
             node.end()
         finally:
             node.process.kill()
-            rospy.delete_param(name)
+
+    def restart_master(self):
+        """At its address; it knows nobody. What is subscribed here is subscribed again."""
+        self.diagnostics.close()
+        self.master.start()
+        self.diagnostics = Diagnostics()
 
     def camera(self, path=None, **options):
         return Camera(self, path, **options)
@@ -152,13 +168,14 @@ class Node:
 
 class Camera(contextlib.AbstractContextManager):
     """A camera on its way into ROS: tracker, path with faults, trk_to_ros, subscriber. `protocol`: trk, freed or opentrackio.
+    With `sinks` a relay stands behind the tracker and writes to these.
 
     send() as often as wanted, then result() once.
     """
 
     RATE = 100  # Hz
 
-    def __init__(self, laboratory, path=None, protocol="trk", source=None, rate=RATE, **parameters):
+    def __init__(self, laboratory, path=None, protocol="trk", source=None, sinks=(), rate=RATE, **parameters):
         self._laboratory, self._rate, self._protocol = laboratory, rate, protocol
         self.name = laboratory.next_name()
         self.port = free_port()
@@ -181,11 +198,11 @@ class Camera(contextlib.AbstractContextManager):
                 self.forwarder = Forwarder(self.port, path, random.Random(laboratory.rng.random()), damage)
                 self.entrance = self.forwarder.port
             if protocol != "trk":
-                port = free_port()
                 options = f"{lens or '?'}&id=1".replace("?&", "?")
-                self.relay = laboratory.programs.relay(
-                    f"udp://127.0.0.1:{port}", f"{scheme}://127.0.0.1:{self.entrance}{options}",
-                    log=laboratory.log("relay"))
+                sinks = [f"{scheme}://127.0.0.1:{self.entrance}{options}"]
+            if sinks:
+                port = free_port()
+                self.relay = laboratory.programs.relay(f"udp://127.0.0.1:{port}", *sinks, log=laboratory.log("relay"))
                 stack.callback(self.relay.kill)
                 self.entrance = port
                 wait_for(lambda: "reading udp" in self.relay.said(), "the relay listens")

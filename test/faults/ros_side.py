@@ -60,6 +60,13 @@ class Diagnostics:
         with self._lock:
             return self._newest.get(name.lstrip("/"))
 
+    def forget(self, name):
+        with self._lock:
+            self._newest.pop(name.lstrip("/"), None)
+
+    def close(self):
+        self._subscriber.unregister()
+
     def wait(self, name, condition, what):
         """The first values for which `condition(message, values)` is true."""
         def met():

@@ -159,25 +159,32 @@ def damage_byte(datagram, rng):
     return datagram[:at] + bytes([datagram[at] ^ rng.randrange(1, 256)]) + datagram[at + 1:]
 
 
+_UDP_SEGMENT = 103  # of linux/udp.h: what is sent at once is cut into datagrams of this size
+_AT_ONCE = 32
+
+
 def rubbish(port, rate, seconds, seed):
     """Sends datagrams that are no records, as many a second, and returns how many it sent, and for how long (s)."""
     rng = random.Random(seed)
     beginnings = [b"", b"DMC01\0PA", b"DMC01\0PB", b"DMC01\0CA", b"DMC01\0XX", b"OTrk", b"\xd1"]
-    kinds = [rng.choice(beginnings) + rng.randbytes(rng.randrange(1, 400)) for _ in range(512)]
-    count, begin = 0, time.monotonic()
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
+    senders = []
+    for beginning in beginnings * 4:
+        size = len(beginning) + rng.randrange(1, 400)
+        out = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        out.setsockopt(socket.IPPROTO_UDP, _UDP_SEGMENT, size)
         out.connect(("127.0.0.1", port))
-        while True:
-            now = time.monotonic() - begin
-            if now >= seconds:
-                return count, now
-            for _ in range(min(500, int(now * rate) - count)):
-                try:
-                    out.send(kinds[count % len(kinds)])
-                except ConnectionRefusedError:
-                    pass
-                count += 1
-            time.sleep(0.0005)
+        senders.append((out, b"".join(beginning + rng.randbytes(size - len(beginning)) for _ in range(_AT_ONCE))))
+    count, begin = 0, time.monotonic()
+    while True:
+        now = time.monotonic() - begin
+        if now >= seconds:
+            return count, now
+        # After a longer pause it does not catch up.
+        for _ in range(min(rate // 20, int(now * rate) - count) // _AT_ONCE):
+            out, datagrams = rng.choice(senders)
+            out.send(datagrams)
+            count += _AT_ONCE
+        time.sleep(0.001)
 
 
 if __name__ == "__main__":

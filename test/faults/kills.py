@@ -1,0 +1,177 @@
+"""kill -9 of every process between a tracker and its receivers, at random moments, over one transport."""
+
+import contextlib
+import json
+import os
+import time
+
+import sets
+from laboratory import Result
+from processes import Failure, Process, free_port, wait_for
+from ros_side import Listener
+from trackers import Tracker
+
+
+class Places:
+    """Endpoints of a transport: pairs of what a sink writes to and a source reads from."""
+
+    def __init__(self, transport, folder):
+        self._transport, self._folder, self._count = transport, folder, 0
+
+    def next(self):
+        self._count += 1
+        if self._transport == "udp":
+            url = f"udp://127.0.0.1:{free_port()}"
+            return url, url
+        if self._transport == "shm":
+            return f"shm:{self._count}", f"shm:{self._count}"
+        path = f"{self._folder}/fifo{self._count}"
+        os.mkfifo(path)
+        return f"file:{path}", f"file:{path}?speed=0&time=now&lenient=1"
+
+
+class Chain(contextlib.AbstractContextManager):
+    """tracker -> writer -> relay -> reader, and relay -> trk_to_ros -> ros_to_trk -> receiver; all arrows but the first
+    and the topic are of the transport. What arrives is judged at the reader, on the topic and at the receiver."""
+
+    def __init__(self, laboratory, transport):
+        self._laboratory, self._transport = laboratory, transport
+        self._folder = laboratory.new_folder()
+        places = Places(transport, self._folder)
+        to_relay, of_writer = places.next()
+        to_reader, of_relay = places.next()
+        to_node, of_node_relay = places.next()
+        to_receiver, of_ros = places.next()
+        port, name = free_port(), laboratory.next_name()
+        self._node_status = f"{name}/trk_to_ros: {name}"
+        self.arrivals = {where: sets.Arrivals(1) for where in ("reader", "topic", "receiver")}
+        programs, log = laboratory.programs, laboratory.log
+        laboratory.set_parameters(f"/{name}/trk_to_ros", source=of_node_relay)
+        laboratory.set_parameters(f"/{name}/ros_to_trk", sinks=[to_receiver])
+        self._starts = {
+            "writer": lambda: programs.relay(f"udp://127.0.0.1:{port}", to_relay, log=log("writer")),
+            "relay": lambda: programs.relay(of_writer, to_reader, to_node, log=log("relay")),
+            "reader": lambda: programs.dump(of_relay, self.arrivals["reader"], log("reader")),
+            "trk_to_ros": lambda: programs.node("trk_to_ros", f"/{name}/trk_to_ros", log("trk_to_ros")),
+            "ros_to_trk": lambda: programs.node("ros_to_trk", f"/{name}/ros_to_trk", log("ros_to_trk")),
+            "receiver": lambda: programs.dump(of_ros, self.arrivals["receiver"], log("receiver")),
+        }
+        self._listener = Listener(f"/{name}/params", self.arrivals["topic"])
+        self.victims = list(self._starts)
+        self._running = {}
+        for which in self.victims:
+            self.start(which)
+        self.tracker = Tracker([(port, 1)])
+
+    def __exit__(self, *details):
+        self.tracker.stop()
+        self._listener.close()
+        for process in self._running.values():
+            process.kill()
+
+    def start(self, which):
+        self._running[which] = self._starts[which]()
+
+    def kill(self, which):
+        self._running[which].kill()
+
+    def end(self):
+        """In order, the receivers last."""
+        for process in self._running.values():
+            process.end()
+
+    def passed(self, number):
+        """Whether all receivers have a later set."""
+        self._heal()
+        return all(one.has_passed(self.tracker.run, number) for one in self.arrivals.values())
+
+    def _heal(self):
+        """A take ends for who reads it when its writer dies: those are started again. Nothing else may end."""
+        for which, process in self._running.items():
+            if process.code() is None:
+                continue
+            if self._transport != "file":
+                raise Failure(f"{which} has ended with {process.code()}: {process.said()[-1000:]}")
+            self.start(which)
+        found = self._laboratory.diagnostics.of(self._node_status)
+        if self._transport == "file" and found and found[0].startswith(("ended", "the source failed")):
+            self.kill("trk_to_ros")
+            self._laboratory.diagnostics.forget(self._node_status)
+            self.start("trk_to_ros")
+
+
+def kill(laboratory, transport, times):
+    """A Result. The recovery is from when what was killed is started again until all receivers have newer sets."""
+    result, rng = Result(), laboratory.rng
+    recoveries = []
+    with Chain(laboratory, transport) as chain:
+        wait_for(lambda: chain.passed(0), "sets arrive at all receivers")
+        for count in range(times):
+            victim = rng.choice(chain.victims)
+            laboratory.pause(0.2 * rng.random())
+            chain.kill(victim)
+            laboratory.pause(0.1 * rng.random())
+            chain.start(victim)
+            begun, number = time.monotonic(), chain.tracker.sent
+            try:
+                wait_for(lambda number=number: chain.passed(number), f"sets arrive after {victim} was killed")
+            except Failure as failure:
+                missing = [where for where, one in chain.arrivals.items() if not one.has_passed(1, number)]
+                raise Failure(f"kill {count + 1}: {failure}, at {', '.join(missing)}") from None
+            recoveries.append((time.monotonic() - begun, victim))
+        result.sent = chain.tracker.stop()
+        laboratory.pause(0.5)
+        chain.end()
+    for where, one in chain.arrivals.items():
+        result.wrong += [f"{where}: {wrong}" for wrong in one.wrong]
+    result.arrived = min(one.count for one in chain.arrivals.values())
+    result.lost = result.sent - result.arrived
+    slowest, victim = max(recoveries)
+    result.recovered(slowest)
+    result.note = f"{times} kills, slowest after that of {victim}"
+    return result
+
+
+def kill_recorders(laboratory, times):
+    """The same of a relay that records takes. Parts that it leaves are recovered by the next one."""
+    result, rng = Result(), laboratory.rng
+    folder = laboratory.new_folder()
+    port = free_port()
+    tracker = Tracker([(port, 1)])
+
+    def start():
+        return laboratory.programs.relay(f"udp://127.0.0.1:{port}", f"file:{folder}/take-001.trk?number=1",
+                                         log=laboratory.log("recorder"))
+
+    def recorded():
+        return sum(path.stat().st_size for path in folder.glob("*.part"))
+
+    recorder = start()
+    for _ in range(times):
+        wait_for(lambda: recorded() > 0, "a take is recorded")
+        laboratory.pause(0.3 * rng.random())
+        recorder.kill()
+        recorder = start()
+        begun = time.monotonic()
+        # What is recovered is no part any more.
+        wait_for(lambda: len(list(folder.glob("*.part"))) == 1 and recorded() > 0, "a take is recorded again")
+        result.recovered(time.monotonic() - begun)
+    laboratory.pause(0.3)
+    result.sent = tracker.stop()
+    result.expect(recorder.end() == 0, f"the last recorder ended with {recorder.code()}: {recorder.said()[-500:]}")
+    result.expect(not list(folder.glob("*.part")), "a part is left")
+    takes = []
+    for path in folder.glob("*.trk"):
+        lines = []
+        Process([laboratory.programs.path("trk"), "dump", "--json", f"file:{path}?speed=0&time=now"],
+                laboratory.log("dump"), lines.append).wait()
+        params = [record for record in map(json.loads, lines) if record["type"] == "params"]
+        takes.append([(record["counter"], record) for record in params])
+    arrivals = sets.Arrivals(1)
+    for take in sorted(filter(None, takes), key=lambda take: take[0][0]):
+        for _, record in take:
+            arrivals.add_json(record)
+    result.take(arrivals)
+    result.lost = result.sent - result.arrived
+    result.note = f"{times} kills, {len(takes)} takes"
+    return result
