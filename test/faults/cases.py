@@ -88,8 +88,8 @@ def rubbish(laboratory):
         said = []
         seconds = laboratory.choose(3, 30)
         tracker = camera.tracker()
-        Process([sys.executable, "-B", sys.path[0] + "/trackers.py", camera.port, 100000, seconds, laboratory.seed],
-                laboratory.log("rubbish"), said.append).wait(seconds + 60)
+        laboratory.programs.rubbish(camera.port, 100000, seconds, laboratory.seed, laboratory.log("rubbish"),
+                                    said.append).wait(seconds + 60)
         ended = time.monotonic()
         number = tracker.sent
         wait_for(lambda: camera.arrivals.has_passed(1, number), "sets arrive after the rubbish")

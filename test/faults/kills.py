@@ -56,7 +56,7 @@ class Chain(contextlib.AbstractContextManager):
             "ros_to_trk": lambda: programs.node("ros_to_trk", f"/{name}/ros_to_trk", log("ros_to_trk")),
             "receiver": lambda: programs.dump(of_ros, self.arrivals["receiver"], log("receiver")),
         }
-        self._listener = Listener(f"/{name}/params", self.arrivals["topic"])
+        self._listener = Listener(f"/{name}/params", self.arrivals["topic"].add_message)
         self.victims = list(self._starts)
         self._running = {}
         for which in self.victims:

@@ -188,7 +188,7 @@ class Camera(contextlib.AbstractContextManager):
                 laboratory.node("trk_to_ros", "/" + self.name, source=source, **parameters))
             self.node.wait(self.name, lambda *_: True, "the node reports")
             self.arrivals = sets.Arrivals(1, protocol != "freed", sets.FREE_D_ERROR if protocol == "freed" else None)
-            self._listener = Listener(f"/{self.name}/params", self.arrivals)
+            self._listener = Listener(f"/{self.name}/params", self.arrivals.add_message)
             stack.callback(self._listener.close)
             wait_for(self._listener.is_connected, "the subscriber is connected")
             self.forwarder = self.relay = None

@@ -7,9 +7,11 @@ import pathlib
 import signal
 import socket
 import subprocess
+import sys
 import threading
 import time
 
+_TRACKERS = pathlib.Path(__file__).resolve().parent / "trackers.py"
 PATIENCE = 60  # s, for what takes a moment, on a machine that is busy with other things
 
 
@@ -85,6 +87,20 @@ class Process:
         self._wait(seconds)
         return self.code()
 
+    def pause(self, seconds):
+        """It stands still for so long."""
+        self._popen.send_signal(signal.SIGSTOP)
+        time.sleep(seconds)
+        self._popen.send_signal(signal.SIGCONT)
+
+    def usage(self):
+        """Memory in MiB, descriptors and threads."""
+        folder = pathlib.Path(f"/proc/{self.pid}")
+        memory = dict(line.split(":", 1) for line in (folder / "smaps_rollup").read_text().splitlines()[1:])
+        rss, pss = (int(memory[key].split()[0]) / 1024 for key in ("Rss", "Pss"))
+        return {"rss": rss, "pss": pss, "descriptors": len(list((folder / "fd").iterdir())),
+                "threads": len(list((folder / "task").iterdir()))}
+
     def said(self):
         return self.log.read_text(encoding="utf-8", errors="replace")
 
@@ -116,6 +132,16 @@ class Programs:
             if record["type"] == "params":
                 arrivals.add_json(record)
         return Process([self.path("trk"), "dump", "--json", source], log, on_line)
+
+    @staticmethod
+    def tracker(rate, run, targets, log, on_line):
+        """As a process of its own; `targets`: PORT:ID. At its end it prints how many sets it sent of each."""
+        return Process([sys.executable, "-B", _TRACKERS, "tracker", rate, run, *targets], log, on_line)
+
+    @staticmethod
+    def rubbish(port, rate, seconds, seed, log, on_line):
+        """Prints how many datagrams it sent, and in how many seconds."""
+        return Process([sys.executable, "-B", _TRACKERS, "rubbish", port, rate, seconds, seed], log, on_line)
 
     def node(self, name, node_name, log):
         namespace, _, base = node_name.rpartition("/")

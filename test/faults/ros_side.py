@@ -82,8 +82,8 @@ class Diagnostics:
 class Listener:
     """A subscriber of the params of one camera."""
 
-    def __init__(self, topic, arrivals):
-        self._subscriber = rospy.Subscriber(topic, trk_bridge.msg.CameraParams, arrivals.add_message, tcp_nodelay=True,
+    def __init__(self, topic, on_message):
+        self._subscriber = rospy.Subscriber(topic, trk_bridge.msg.CameraParams, on_message, tcp_nodelay=True,
                                             buff_size=1 << 20)
 
     def is_connected(self):

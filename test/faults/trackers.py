@@ -2,7 +2,9 @@
 
 import heapq
 import random
+import signal
 import socket
+import sys
 import threading
 import time
 from dataclasses import dataclass
@@ -187,7 +189,17 @@ def rubbish(port, rate, seconds, seed):
         time.sleep(0.001)
 
 
+def main(what, *words):
+    """As a process of its own: tracker RATE RUN PORT:ID… until SIGINT, or rubbish PORT RATE SECONDS SEED."""
+    if what == "rubbish":
+        print(*rubbish(*map(int, words)))
+        return
+    rate, run, *targets = words
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    tracker = Tracker([tuple(map(int, target.split(":"))) for target in targets], int(rate), int(run))
+    signal.sigwait([signal.SIGINT])
+    print(tracker.stop())
+
+
 if __name__ == "__main__":
-    # As a process of its own: rubbish PORT RATE SECONDS SEED
-    import sys
-    print(*rubbish(*map(int, sys.argv[1:])))
+    main(*sys.argv[1:])

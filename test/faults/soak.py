@@ -1,0 +1,265 @@
+#!/usr/bin/env python3
+"""16 cameras at 120 Hz over all endpoints and protocols into ROS and out again, with faults from time to time. Judges what
+arrives, and whether memory, descriptors, threads and latency stay as they are (doc/evidence.md)."""
+
+import argparse
+import contextlib
+import csv
+import os
+import pathlib
+import random
+import statistics
+import sys
+import tempfile
+import threading
+import time
+import traceback
+
+import own_machine
+import verdict
+from faults import ROOT, table
+
+RATE = 120  # Hz
+PERIOD = 10  # s, of samples
+ID_OF = {"ascii": (1, 2, 3, 4), "binary": (5, 6), "multicast": (7, 8), "opentrackio": (9, 10), "freed": (11, 12),
+         "shm1": (13,), "shm2": (14,), "fifo1": (15,), "fifo2": (16,)}
+PLUG = ("link add trk0 type veth peer name far0", "link set trk0 up", "link set far0 up", "addr add 10.9.0.1/24 dev trk0")
+
+
+class Ages:
+    """How old messages are when they arrive, s since their stamp, which is their time of receipt."""
+
+    def __init__(self):
+        self._ages, self._lock = [], threading.Lock()
+
+    def add(self, stamp):
+        age = time.time() - stamp
+        with self._lock:
+            self._ages.append(age)
+
+    def take(self):
+        with self._lock:
+            taken, self._ages = self._ages, []
+        return sorted(taken)
+
+
+class Set(contextlib.ExitStack):
+    """What runs: trackers, relays, nodes, and what receives."""
+
+    def __init__(self, laboratory):
+        super().__init__()
+        from processes import free_port
+        from ros_side import Listener
+        from sets import FREE_D_ERROR, Arrivals
+
+        self.laboratory = laboratory
+        programs, log, folder = laboratory.programs, laboratory.log, laboratory.new_folder()
+        own_machine.ip(*PLUG)
+        self.callback(lambda: own_machine.ip("link del trk0"))
+        self.port = {way: free_port() for way in ID_OF}
+        to = {way: free_port() for way in ID_OF}
+        lens = f"lens={laboratory.lens}"
+        for fifo in ("fifo1", "fifo2"):
+            os.mkfifo(folder / fifo)
+        group = "udp://239.9.9.9:7000?interface=trk0"
+        # Where a relay writes, and where a node reads.
+        self._sinks = {
+            "binary": f"udp://127.0.0.1:{to['binary']}?binary=1", "multicast": group,
+            "opentrackio": f"opentrackio://127.0.0.1:{to['opentrackio']}?encoding=cbor",
+            "freed": f"freed://127.0.0.1:{to['freed']}?{lens}", "shm1": "shm:1", "shm2": "shm:2",
+            "fifo1": f"file:{folder}/fifo1", "fifo2": f"file:{folder}/fifo2"}
+        sources = {
+            "ascii": f"udp://127.0.0.1:{self.port['ascii']}", "binary": f"udp://127.0.0.1:{to['binary']}",
+            "multicast": group, "opentrackio": f"opentrackio://127.0.0.1:{to['opentrackio']}",
+            "freed": f"freed://127.0.0.1:{to['freed']}?{lens}", "shm1": "shm:1", "shm2": "shm:2",
+            "fifo1": f"file:{folder}/fifo1?speed=0&time=now", "fifo2": f"file:{folder}/fifo2?speed=0&time=now"}
+        cameras = {way: {f"camera{number}": {"id": number, "source": sources[way]} for number in ID_OF[way]} for way in ID_OF}
+        network = ("ascii", "binary", "multicast", "opentrackio", "freed")
+        self.nodes = {
+            "network": self.node("network/trk_to_ros", [cameras[way] for way in network]),
+            "local": self.node("local/trk_to_ros", [cameras[way] for way in ID_OF if way not in network])}
+        out, back = free_port(), Arrivals(1)
+        laboratory.set_parameters("/network/camera1/ros_to_trk", sinks=[f"udp://127.0.0.1:{out}", "shm:3"])
+        self.nodes["out"] = programs.node("ros_to_trk", "/network/camera1/ros_to_trk", log("ros_to_trk"))
+        self.nodes["dump"] = programs.dump(f"udp://127.0.0.1:{out}", back, log("dump"))
+        self.ages, self.arrivals, self._listeners = Ages(), {"back": back}, []
+        for number in range(1, 17):
+            is_freed = number in ID_OF["freed"]
+            one = Arrivals(number, not is_freed, FREE_D_ERROR if is_freed else None)
+            self.arrivals[f"camera{number}"] = one
+            self._listeners.append(Listener(f"/{'network' if number <= 12 else 'local'}/camera{number}/params",
+                                            self._taking(one)))
+        self.relays = {}
+        for way in self._sinks:
+            self.start_relay(way)
+        targets = [f"{self.port[way]}:{number}" for way, numbers in ID_OF.items() for number in numbers]
+        self._sent = []
+        self.tracker = programs.tracker(RATE, 1, targets, log("tracker"), self._sent.append)
+
+    def node(self, name, cameras):
+        self.laboratory.set_parameters("/" + name, stamp="arrival",
+                                       cameras={key: value for some in cameras for key, value in some.items()})
+        return self.laboratory.programs.node("trk_to_ros", "/" + name, self.laboratory.log("trk_to_ros"))
+
+    def _taking(self, arrivals):
+        def take(message):
+            self.ages.add(message.header.stamp.to_sec())
+            arrivals.add_message(message)
+        return take
+
+    def start_relay(self, way):
+        self.relays[way] = self.laboratory.programs.relay(f"udp://127.0.0.1:{self.port[way]}", self._sinks[way],
+                                                          log=self.laboratory.log(way))
+
+    def counts(self):
+        return {name: one.count for name, one in self.arrivals.items()}
+
+    def end(self):
+        """In order. What is wrong."""
+        self.tracker.end()
+        time.sleep(2)
+        wrong = []
+        for relay in self.relays.values():
+            relay.end()  # it fails where the interface was gone
+        for name, process in self.nodes.items():
+            if process.end() != 0:
+                wrong.append(f"{name} ended with {process.code()}: {process.said()[-500:]}")
+        for listener in self._listeners:
+            listener.close()
+        sent = int(self._sent[0])
+        for name, one in self.arrivals.items():
+            wrong += [f"{name}: {text}" for text in one.wrong]
+            if one.newest.get(1, 0) > sent:
+                wrong.append(f"{name}: {one.newest} came, {sent} were sent")
+        return wrong, sent
+
+    def kill_all(self):
+        for process in [*self.relays.values(), *self.nodes.values(), self.tracker]:
+            process.kill()
+
+
+def kill_relay(studio, rng):
+    # A take ends for its reader when its writer dies.
+    way = rng.choice([way for way in studio.relays if not way.startswith("fifo")])
+    studio.relays[way].kill()
+    time.sleep(rng.random())
+    studio.start_relay(way)
+    return f"kill -9 of the relay of {way}"
+
+
+def stop_relay(studio, rng):
+    way = rng.choice(list(studio.relays))
+    studio.relays[way].pause(rng.random())
+    return f"the relay of {way} stands still for a moment"
+
+
+def send_rubbish(studio, rng):
+    said = []
+    studio.laboratory.programs.rubbish(studio.port["ascii"], 100000, 2, rng.randrange(1000), studio.laboratory.log("rubbish"),
+                                       said.append).wait()
+    return f"{said[0].split()[0]} datagrams of rubbish"
+
+
+def recreate_interface(_, rng):
+    own_machine.ip("link del trk0")
+    time.sleep(rng.random())
+    own_machine.ip(*PLUG)
+    return "the interface of the group is recreated"
+
+
+def second_sender(studio, rng):
+    from trackers import Tracker
+    tracker = Tracker([(studio.port["ascii"], rng.choice(ID_OF["ascii"]))], RATE, 2)
+    time.sleep(2)
+    tracker.stop()
+    return "a second sender of a camera"
+
+
+FAULTS = (kill_relay, stop_relay, send_rubbish, recreate_interface, second_sender)
+
+
+def disturb(studio, rng, ends, done):
+    while not ends.wait(rng.uniform(15, 25)):
+        try:
+            done.append(rng.choice(FAULTS)(studio, rng))
+        except Exception as error:  # the soak goes on, and fails at its end
+            traceback.print_exc()
+            done.append(f"FAILED: {error}")
+
+
+def run(studio, minutes, rng, on_sample):
+    """Samples until the end; the faults that were done."""
+    ends, done = threading.Event(), []
+    disturber = threading.Thread(target=disturb, args=(studio, rng, ends, done), daemon=True)
+    disturber.start()
+    begin = last = time.monotonic()
+    before = studio.counts()
+    studio.ages.take()
+    while last - begin < 60 * minutes:
+        time.sleep(max(0.0, last + PERIOD - time.monotonic()))
+        now, counts, ages = time.monotonic(), studio.counts(), studio.ages.take()
+        row = {"time": now - begin, "load": os.getloadavg()[0]}
+        for name, count in counts.items():
+            row[f"rate {name}"] = (count - before[name]) / (now - last)
+        # Milliseconds. A sample without any is not the place to stop.
+        row["latency median"] = 1e3 * statistics.median(ages) if ages else float("nan")
+        row["latency 99 %"] = 1e3 * ages[len(ages) * 99 // 100] if ages else float("nan")
+        for name, process in studio.nodes.items():
+            row.update({f"{key} {name}": value for key, value in process.usage().items()})
+        on_sample(row)
+        last, before = now, counts
+    ends.set()
+    disturber.join()
+    return done
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("minutes", metavar="MINUTES", type=float)
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="the build whose programs are tried")
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "build/soak", help="folder of the table, CSV and plot")
+    parser.add_argument("--seed", type=int, help="of the faults; default: another one each time")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    own_machine.enter(ROOT, options.build, options.out)
+    # With what ROS is imported, which --help does without.
+    from laboratory import Laboratory
+    from processes import wait_for
+
+    seed = options.seed if options.seed is not None else random.SystemRandom().randrange(1 << 32)
+    print(f"seed {seed}", flush=True)
+    rows = []
+    with tempfile.TemporaryDirectory() as folder, (options.out / "soak.csv").open("w", encoding="utf-8") as file:
+        laboratory = Laboratory(options.build, ROOT, pathlib.Path(folder), seed, True, 2)
+
+        def on_sample(row):
+            if not rows:
+                print(",".join(row), file=file)
+            rows.append(row)
+            print(",".join(f"{value:.3f}" for value in row.values()), file=file, flush=True)
+
+        left = []
+        with laboratory.leaving_nothing(left):
+            with Set(laboratory) as studio:
+                try:
+                    wait_for(lambda: all(studio.counts().values()), f"every camera sends; now {studio.counts()}")
+                    done = run(studio, options.minutes, random.Random(seed), on_sample)
+                    wrong, sent = studio.end()
+                finally:
+                    studio.kill_all()
+        wrong += left + [fault for fault in done if fault.startswith("FAILED")]
+    lines, is_flat = verdict.judge(rows)
+    arrived = sum(studio.counts().values())
+    wrong += verdict.stopped(rows)
+    text = "\n".join([f"{options.minutes:g} minutes, {len(done)} faults, {sent} sets of each camera sent, {arrived} arrived",
+                      *table(lines), *(f"wrong: {one}" for one in wrong)])
+    (options.out / "soak.txt").write_text(text + "\n", encoding="utf-8")
+    (options.out / "soak.svg").write_text(verdict.plot(rows), encoding="utf-8")
+    print(text)
+    is_good = is_flat and not wrong
+    print("flat" if is_good else "NOT flat, or wrong")
+    return 0 if is_good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
