@@ -1,13 +1,14 @@
 """The faults: a case is a function of the laboratory that returns a Result, and its first line says what is done."""
 
 import json
-import sys
+import os
 import time
 
 import own_machine
-from kills import kill, kill_recorders
-from laboratory import Result
-from processes import Process, wait_for
+from kills import kill, kill_recorders, read_take
+from laboratory import Camera, Result
+from processes import free_port, wait_for
+from ros_side import Crane
 from trackers import Path
 
 CASES = {}
@@ -188,12 +189,32 @@ def disk_full(laboratory):
     """A disk is full while a take is recorded, and has room again; beside it a camera goes on."""
     disk = laboratory.new_folder()
     own_machine.run("mount", "-t", "tmpfs", "-o", "size=64k", "none", disk)
-    (disk / "filler").write_bytes(bytes(48 << 10))
-    recorded = sets.Arrivals(1)
-    with laboratory.camera(sinks=[f"file:{disk}/take.trk", "live"]) as camera:
-        pass
+    filler, part = disk / "filler", disk / "take.trk.part"
+    filler.write_bytes(bytes(48 << 10))
+    with laboratory.camera(sinks=[f"file:{disk}/take.trk", Camera.LIVE]) as camera:
+        tracker = camera.tracker()
+        wait_for(lambda: part.exists() and not free_bytes(disk), "the disk is full")
+        laboratory.pause(laboratory.choose(1, 10))
+        filler.unlink()
+        begun, size = time.monotonic(), part.stat().st_size
+        wait_for(lambda: part.stat().st_size > size, "recording goes on")
+        recovery = time.monotonic() - begun
+        camera.sent = tracker.stop()
+        result = camera.result()
+        camera.relay.end()
+    recorded = read_take(laboratory, disk / "take.trk")
     own_machine.run("umount", disk)
-    return Result()
+    result.recovered(recovery)
+    result.wrong += recorded.wrong
+    result.note = f"{recorded.count} sets in the take"
+    result.expect(result.lost == 0, f"{result.lost} lost beside the disk")
+    result.expect(0 < recorded.count < camera.sent, f"{recorded.count} of {camera.sent} recorded")
+    return result
+
+
+def free_bytes(folder):
+    found = os.statvfs(folder)
+    return found.f_bavail * found.f_frsize
 
 
 @case
@@ -206,13 +227,58 @@ def master_restarts(laboratory):
         camera.node.wait("ROS", lambda message, _: "does not answer" in message, "the node reports that it is gone")
         number = tracker.sent
         wait_for(lambda: camera.arrivals.has_passed(1, number), "sets arrive without a master")
-        laboratory.restart_master()
-        begun = time.monotonic()
+        laboratory.master.start()
         camera.node.wait("ROS", lambda message, _: "does not know" in message, "the node reports the new master")
         camera.sent = tracker.stop()
         result = camera.result()
-    result.note = f"reported {time.monotonic() - begun:.1f} s after the restart"
+    laboratory.subscribe_again()
     result.expect(result.lost == 0, f"{result.lost} lost")
+    return result
+
+
+@case
+def clock_of_tf_jumps(laboratory):
+    """The clock that stamps tf is set back and forth under ros_to_trk."""
+    return jump(laboratory, is_simulated=False)
+
+
+@case
+def ros_time_jumps(laboratory):
+    """/clock goes back and forth, and with it the stamps of tf, under ros_to_trk."""
+    return jump(laboratory, is_simulated=True)
+
+
+def jump(laboratory, is_simulated):
+    name = laboratory.next_name()
+    crane = Crane(name, is_simulated)
+    url = f"udp://127.0.0.1:{free_port()}"
+    sent_on, result = [], Result()
+
+    def on_line(line):
+        record = json.loads(line)
+        if record["type"] == "params":
+            sent_on.append((record["euler"]["x"], record["counter"]))
+
+    receiver = laboratory.programs.process("trk", "dump", "--json", url, log=laboratory.log("dump"), on_line=on_line)
+    with laboratory.node("ros_to_trk", "/" + name, sinks=[url], input="tf", chip_width=9.6, chip_height=5.4,
+                         pace=False):
+        wait_for(lambda: sent_on, "poses arrive")
+        for offset in (-60, 0, 3600, -1e6, 5, 0)[:laboratory.choose(3, 6)]:
+            crane.offset = offset
+            begun, number = time.monotonic(), crane.at
+            wait_for(lambda number=number: sent_on[-1][0] > number, f"poses arrive with a clock off by {offset} s")
+            result.recovered(time.monotonic() - begun)
+            laboratory.pause(1)
+        last = crane.stop()
+        laboratory.pause(0.3)
+    receiver.end()
+    result.sent = last - int(sent_on[0][0]) + 1
+    result.arrived = len(sent_on)
+    result.lost = result.sent - result.arrived
+    for (x, counter), (next_x, next_counter) in zip(sent_on, sent_on[1:]):
+        result.expect(next_x > x and next_counter == counter + 1, f"{next_x}, {next_counter} after {x}, {counter}")
+    result.expect(all(x == int(x) <= last for x, _ in sent_on), "poses that were not sent")
+    del result.wrong[5:]
     return result
 
 

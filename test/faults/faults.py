@@ -29,7 +29,7 @@ def main():
     form.add_argument("--long", action="store_true", help="with 1,000 kills")
     parser.add_argument("--seed", type=int, help="of what is random; default: another one each time")
     parser.add_argument("--list", action="store_true", help="list the cases")
-    parser.add_argument("--recovery", type=float, help="seconds that a recovery may take; default: 2 with --long, else 10")
+    parser.add_argument("--recovery", type=float, help="seconds that a recovery may take; default: 2 with --long, else 30")
     parser.add_argument("cases", nargs="*", metavar="CASE", help="default: all")
     options = parser.parse_args()
     own_machine.enter(ROOT, options.build)
@@ -52,7 +52,7 @@ def main():
     failed = 0
     with tempfile.TemporaryDirectory() as folder:
         laboratory = Laboratory(options.build, ROOT, pathlib.Path(folder), seed, options.long,
-                                options.recovery or (2 if options.long else 10))
+                                options.recovery or (2 if options.long else 30))
         for name in options.cases or CASES:
             laboratory.rng = random.Random(f"{seed} {name}")
             left = []

@@ -1,13 +1,12 @@
 """kill -9 of every process between a tracker and its receivers, at random moments, over one transport."""
 
 import contextlib
-import json
 import os
 import time
 
 import sets
 from laboratory import Result
-from processes import Failure, Process, free_port, wait_for
+from processes import Failure, free_port, wait_for
 from ros_side import Listener
 from trackers import Tracker
 
@@ -56,7 +55,7 @@ class Chain(contextlib.AbstractContextManager):
             "ros_to_trk": lambda: programs.node("ros_to_trk", f"/{name}/ros_to_trk", log("ros_to_trk")),
             "receiver": lambda: programs.dump(of_ros, self.arrivals["receiver"], log("receiver")),
         }
-        self._listener = Listener(f"/{name}/params", self.arrivals["topic"].add_message)
+        self._listener = Listener(f"/{name}/params", self.arrivals["topic"].add)
         self.victims = list(self._starts)
         self._running = {}
         for which in self.victims:
@@ -143,35 +142,37 @@ def kill_recorders(laboratory, times):
         return laboratory.programs.relay(f"udp://127.0.0.1:{port}", f"file:{folder}/take-001.trk?number=1",
                                          log=laboratory.log("recorder"))
 
-    def recorded():
-        return sum(path.stat().st_size for path in folder.glob("*.part"))
+    def newest():
+        """Counter of the last set in the take that is being written."""
+        for part in folder.glob("*.part"):
+            with contextlib.suppress(OSError):
+                lines = part.read_text(encoding="ascii").split("\n")[:-1]
+                # Before the first set there is the head, whose last line is a comment or shorter.
+                if lines and len(lines[-1].split()) > 12:
+                    return int(lines[-1].split()[-1])
+        return 0
 
     recorder = start()
     for _ in range(times):
-        wait_for(lambda: recorded() > 0, "a take is recorded")
+        wait_for(newest, "a take is recorded")
         laboratory.pause(0.3 * rng.random())
         recorder.kill()
-        recorder = start()
-        begun = time.monotonic()
-        # What is recovered is no part any more.
-        wait_for(lambda: len(list(folder.glob("*.part"))) == 1 and recorded() > 0, "a take is recorded again")
+        recorder, begun, number = start(), time.monotonic(), tracker.sent
+        wait_for(lambda number=number: newest() > number, "a take is recorded again")
         result.recovered(time.monotonic() - begun)
     laboratory.pause(0.3)
     result.sent = tracker.stop()
     result.expect(recorder.end() == 0, f"the last recorder ended with {recorder.code()}: {recorder.said()[-500:]}")
     result.expect(not list(folder.glob("*.part")), "a part is left")
-    takes = []
-    for path in folder.glob("*.trk"):
-        lines = []
-        Process([laboratory.programs.path("trk"), "dump", "--json", f"file:{path}?speed=0&time=now"],
-                laboratory.log("dump"), lines.append).wait()
-        params = [record for record in map(json.loads, lines) if record["type"] == "params"]
-        takes.append([(record["counter"], record) for record in params])
-    arrivals = sets.Arrivals(1)
-    for take in sorted(filter(None, takes), key=lambda take: take[0][0]):
-        for _, record in take:
-            arrivals.add_json(record)
-    result.take(arrivals)
+    takes = list(folder.glob("*.trk"))
+    for take in takes:
+        result.take(read_take(laboratory, take))
     result.lost = result.sent - result.arrived
     result.note = f"{times} kills, {len(takes)} takes"
     return result
+
+
+def read_take(laboratory, path):
+    arrivals = sets.Arrivals(1)
+    laboratory.programs.dump(f"file:{path}?speed=0&time=now", arrivals, laboratory.log("dump")).wait()
+    return arrivals

@@ -126,10 +126,9 @@ class Laboratory:
         finally:
             node.process.kill()
 
-    def restart_master(self):
-        """At its address; it knows nobody. What is subscribed here is subscribed again."""
+    def subscribe_again(self):
+        """After the master was restarted: it knows nobody."""
         self.diagnostics.close()
-        self.master.start()
         self.diagnostics = Diagnostics()
 
     def camera(self, path=None, **options):
@@ -168,12 +167,13 @@ class Node:
 
 class Camera(contextlib.AbstractContextManager):
     """A camera on its way into ROS: tracker, path with faults, trk_to_ros, subscriber. `protocol`: trk, freed or opentrackio.
-    With `sinks` a relay stands behind the tracker and writes to these.
+    With `sinks` a relay stands behind the tracker and writes to these; LIVE among them is where the node listens.
 
     send() as often as wanted, then result() once.
     """
 
     RATE = 100  # Hz
+    LIVE = "live"
 
     def __init__(self, laboratory, path=None, protocol="trk", source=None, sinks=(), rate=RATE, **parameters):
         self._laboratory, self._rate, self._protocol = laboratory, rate, protocol
@@ -188,7 +188,7 @@ class Camera(contextlib.AbstractContextManager):
                 laboratory.node("trk_to_ros", "/" + self.name, source=source, **parameters))
             self.node.wait(self.name, lambda *_: True, "the node reports")
             self.arrivals = sets.Arrivals(1, protocol != "freed", sets.FREE_D_ERROR if protocol == "freed" else None)
-            self._listener = Listener(f"/{self.name}/params", self.arrivals.add_message)
+            self._listener = Listener(f"/{self.name}/params", self.arrivals.add)
             stack.callback(self._listener.close)
             wait_for(self._listener.is_connected, "the subscriber is connected")
             self.forwarder = self.relay = None
@@ -202,6 +202,7 @@ class Camera(contextlib.AbstractContextManager):
                 sinks = [f"{scheme}://127.0.0.1:{self.entrance}{options}"]
             if sinks:
                 port = free_port()
+                sinks = [source if sink is self.LIVE else sink for sink in sinks]
                 self.relay = laboratory.programs.relay(f"udp://127.0.0.1:{port}", *sinks, log=laboratory.log("relay"))
                 stack.callback(self.relay.kill)
                 self.entrance = port

@@ -75,7 +75,7 @@ def _processes():
         except OSError:
             continue  # it has just ended
         if line and int(process.name) != os.getpid():
-            found.add(f"process {process.name}: {line}")
+            found.add(f"process {line}")
     return found
 
 

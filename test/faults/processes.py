@@ -122,16 +122,19 @@ class Programs:
             raise SystemExit(f"no {path}: build first, or say --build")
         return path
 
-    def relay(self, source, *sinks, log, options=()):
-        return Process([self.path("trk"), "relay", source, *sinks, *options], log)
+    def process(self, name, *words, log, on_line=None):
+        return Process([self.path(name), *words], log, on_line)
+
+    def relay(self, source, *sinks, log):
+        return self.process("trk", "relay", source, *sinks, log=log)
 
     def dump(self, source, arrivals, log):
-        """Gives all that comes to `arrivals`."""
+        """Gives all sets that come to `arrivals`."""
         def on_line(line):
             record = json.loads(line)
             if record["type"] == "params":
                 arrivals.add_json(record)
-        return Process([self.path("trk"), "dump", "--json", source], log, on_line)
+        return self.process("trk", "dump", "--json", source, log=log, on_line=on_line)
 
     @staticmethod
     def tracker(rate, run, targets, log, on_line):
@@ -145,4 +148,4 @@ class Programs:
 
     def node(self, name, node_name, log):
         namespace, _, base = node_name.rpartition("/")
-        return Process([self.path(name), f"__ns:={namespace}", f"__name:={base}"], log)
+        return self.process(name, f"__ns:={namespace}", f"__name:={base}", log=log)

@@ -3,12 +3,18 @@
 import os
 import pathlib
 import socket
+import struct
 import sys
 import threading
+import time
 import xmlrpc.client
 
 import diagnostic_msgs.msg
+import geometry_msgs.msg
+import rosgraph_msgs.msg
 import rospy
+import sensor_msgs.msg
+import tf2_msgs.msg
 
 import trk_bridge.msg
 from processes import Failure, Process, free_port, wait_for
@@ -80,14 +86,68 @@ class Diagnostics:
 
 
 class Listener:
-    """A subscriber of the params of one camera."""
+    """A subscriber of the params of one camera: `on_params(id, counter, values in the order of sets.FIELDS, stamp in s)`.
 
-    def __init__(self, topic, on_message):
-        self._subscriber = rospy.Subscriber(topic, trk_bridge.msg.CameraParams, on_message, tcp_nodelay=True,
-                                            buff_size=1 << 20)
+    The bytes are read here: what rospy does with messages costs more than a machine with 16 cameras has.
+    """
+
+    _HEADER = struct.Struct("<4x3I")  # seq, stamp, and the length of frame_id
+    _PARAMS = struct.Struct("<IQI128x13d")  # id, counter, format, matrix, and what is in FIELDS
+
+    def __init__(self, topic, on_params):
+        self._on_params = on_params
+        expected = trk_bridge.msg.CameraParams._slot_types
+        assert expected == ["std_msgs/Header", "uint32", "uint64", "uint32", "float64[16]", *["float64"] * 13], expected
+        self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._on_message, tcp_nodelay=True, buff_size=1 << 20)
+
+    def _on_message(self, message):
+        seconds, nanoseconds, length = self._HEADER.unpack_from(message._buff)
+        camera, counter, _, *found = self._PARAMS.unpack_from(message._buff, self._HEADER.size + length)
+        self._on_params(camera, counter, tuple(found), seconds + 1e-9 * nanoseconds)
 
     def is_connected(self):
         return self._subscriber.get_num_connections() > 0
 
     def close(self):
         self._subscriber.unregister()
+
+
+class Crane:
+    """A camera on tf, with its CameraInfo, at 50 Hz, whose x is one more each time (m), by a clock that is `offset` seconds off. Simulated: it
+    is the clock that /clock shows, too; nodes that start meanwhile use that."""
+
+    def __init__(self, name, is_simulated):
+        self.offset, self.at = 0, 0
+        self._name = name
+        self._is_simulated = is_simulated
+        rospy.set_param("/use_sim_time", is_simulated)
+        self._clock = rospy.Publisher("/clock", rosgraph_msgs.msg.Clock, queue_size=10) if is_simulated else None
+        self._tf = rospy.Publisher("/tf", tf2_msgs.msg.TFMessage, queue_size=100)
+        self._info = rospy.Publisher(f"/{name}/camera_info", sensor_msgs.msg.CameraInfo, queue_size=1, latch=True)
+        self._info.publish(sensor_msgs.msg.CameraInfo(
+            width=1920, height=1080, distortion_model="plumb_bob", D=[0] * 5,
+            K=[2000, 0, 959.5, 0, 2000, 539.5, 0, 0, 1]))
+        self._ends = threading.Event()
+        self._thread = threading.Thread(target=self._move, daemon=True)
+        self._thread.start()
+
+    def stop(self):
+        """How many poses were published."""
+        self._ends.set()
+        self._thread.join()
+        rospy.set_param("/use_sim_time", False)
+        for publisher in (self._clock, self._tf, self._info):
+            if publisher:
+                publisher.unregister()
+        return self.at
+
+    def _move(self):
+        while not self._ends.wait(0.02):
+            stamp = rospy.Time.from_sec(time.time() + self.offset)
+            if self._clock:
+                self._clock.publish(stamp)
+            self.at += 1
+            pose = geometry_msgs.msg.TransformStamped()
+            pose.header.stamp, pose.header.frame_id, pose.child_frame_id = stamp, "studio", self._name
+            pose.transform.translation.x, pose.transform.rotation.w = self.at, 1
+            self._tf.publish([pose])

@@ -1,7 +1,6 @@
 """Camera sets that can be recognised: every value is a function of the camera's id, the run of its sender and the number
 of the set, so that a receiver knows of each set whether it was sent like this."""
 
-import dataclasses
 import threading
 import time
 
@@ -41,13 +40,6 @@ def number_of(datagram):
     return round(float(words[3]) * 1000), int(words[-1])
 
 
-@dataclasses.dataclass(frozen=True)
-class Gap:
-    """Between two sets that arrived, in seconds of the monotonic clock."""
-    begin: float
-    end: float
-
-
 class Arrivals:
     """What arrived of a camera, judged at once. Any thread may call it.
 
@@ -65,8 +57,8 @@ class Arrivals:
         self._error = error  # allowed, for each of the first fields; None: all are exact
         self._lock = threading.Lock()
 
-    def add(self, camera, counter, found):
-        """`found` has the values in the order of FIELDS."""
+    def add(self, camera, counter, found, stamp=None):
+        """`found` has the values in the order of FIELDS; the stamp is not judged."""
         now = time.monotonic()
         with self._lock:
             run = round(found[1] * 1000)
@@ -81,10 +73,6 @@ class Arrivals:
             self.newest[run] = number
             self.count += 1
             self.last_time = now
-
-    def add_message(self, message):
-        """A trk_bridge/CameraParams."""
-        self.add(message.id, message.counter, tuple(getattr(message, field) for field in FIELDS))
 
     def add_json(self, record):
         """A line of `trk dump --json`, as an object."""

@@ -102,9 +102,9 @@ class Set(contextlib.ExitStack):
         return self.laboratory.programs.node("trk_to_ros", "/" + name, self.laboratory.log("trk_to_ros"))
 
     def _taking(self, arrivals):
-        def take(message):
-            self.ages.add(message.header.stamp.to_sec())
-            arrivals.add_message(message)
+        def take(camera, counter, found, stamp):
+            self.ages.add(stamp)
+            arrivals.add(camera, counter, found)
         return take
 
     def start_relay(self, way):
