@@ -23,7 +23,7 @@ def table(rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="the build whose programs are tried")
+    own_machine.add_build_arguments(parser, ROOT / "build")
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--short", action="store_true", help="at most two minutes; the default")
     form.add_argument("--long", action="store_true", help="with 1,000 kills")
@@ -32,7 +32,7 @@ def main():
     parser.add_argument("--recovery", type=float, help="seconds that a recovery may take; default: 2 with --long, else 30")
     parser.add_argument("cases", nargs="*", metavar="CASE", help="default: all")
     options = parser.parse_args()
-    own_machine.enter(ROOT, options.build)
+    own_machine.enter(options, ROOT)
     # With what ROS is imported, which --help does without.
     from cases import CASES
     from laboratory import Laboratory, Result
@@ -51,7 +51,7 @@ def main():
     rows = [("case", "sent", "arrived", "lost", "duplicates", "recovery", "result")]
     failed = 0
     with tempfile.TemporaryDirectory() as folder:
-        laboratory = Laboratory(options.build, ROOT, pathlib.Path(folder), seed, options.long,
+        laboratory = Laboratory(options.devel, ROOT, pathlib.Path(folder), seed, options.long,
                                 options.recovery or (2 if options.long else 30))
         for name in options.cases or CASES:
             laboratory.rng = random.Random(f"{seed} {name}")

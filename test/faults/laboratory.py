@@ -78,8 +78,8 @@ _SHOWN = {"received": "received", "lost": "lost", "duplicate": "duplicate", "lat
 class Laboratory:
     """`most_recovery`: s."""
 
-    def __init__(self, build, root, folder, seed, is_long, most_recovery):
-        self.programs = Programs(build)
+    def __init__(self, devel, root, folder, seed, is_long, most_recovery):
+        self.programs = Programs(devel)
         self.folder = folder
         self.lens = root / "config/lens_example.yaml"
         self.seed, self.is_long, self.most_recovery = seed, is_long, most_recovery

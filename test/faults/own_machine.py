@@ -23,9 +23,20 @@ def ip(*lines):
     run("ip", "-batch", "-", input="\n".join(lines) + "\n")
 
 
-def enter(*kept):
-    """Starts this program again on a machine of its own, and returns there. `kept` are folders that stay as they are, also
-    below /tmp; nothing else of /tmp is seen. Without the right to do so it ends the program with SKIPPED."""
+def add_build_arguments(parser, default):
+    """--build and --devel, for enter()."""
+    parser.add_argument("--build", type=pathlib.Path, default=default, help="the build whose programs are tried")
+    parser.add_argument("--devel", type=pathlib.Path, help="its devel space; default: devel in BUILD")
+
+
+def enter(options, *kept):
+    """Starts this program again on a machine of its own, and returns there; the messages of the devel space can be imported
+    then. `kept` are folders that stay as they are, also below /tmp; beside them and the build nothing of /tmp is seen. It
+    ends the program with SKIPPED where it has no right to do so."""
+    options.devel = (options.devel or options.build / "devel").resolve()
+    if not options.devel.is_dir():
+        sys.exit(f"no {options.devel}: build first, or say --build or --devel")
+    kept += (options.build, options.devel)
     if os.environ.get(_MARK) is None:
         probe = subprocess.run([*_UNSHARE, "true"], capture_output=True, text=True, check=False)
         if probe.returncode != 0:
@@ -34,7 +45,8 @@ def enter(*kept):
         os.environ[_MARK] = "1"
         os.execvp(_UNSHARE[0], [*_UNSHARE, sys.executable, "-B", *sys.argv])
     del os.environ[_MARK]
-    _hide_temporary([pathlib.Path(folder).resolve() for folder in kept])
+    _hide_temporary({pathlib.Path(folder).resolve() for folder in kept})
+    sys.path += map(str, options.devel.glob("lib/python3*/dist-packages"))
     HOME.mkdir()
     os.environ.update(HOME=str(HOME), ROS_HOME=str(HOME / ".ros"), ROS_IP="127.0.0.1", TMPDIR=str(TEMPORARY))
     os.environ.pop("ROS_HOSTNAME", None)
@@ -46,7 +58,8 @@ def _hide_temporary(kept):
     outside = pathlib.Path("/mnt")
     run("mount", "--bind", TEMPORARY, outside)
     run("mount", "-t", "tmpfs", "-o", "mode=1777", "none", TEMPORARY)
-    for folder in kept:
+    # A folder comes before what is in it.
+    for folder in sorted(kept):
         if TEMPORARY in folder.parents:
             folder.mkdir(parents=True, exist_ok=True)
             run("mount", "--bind", outside / folder.relative_to(TEMPORARY), folder)

@@ -12,7 +12,7 @@ import threading
 import time
 
 _TRACKERS = pathlib.Path(__file__).resolve().parent / "trackers.py"
-PATIENCE = 60  # s, for what takes a moment, on a machine that is busy with other things
+PATIENCE = 300  # s, for what takes a moment, on a machine that is busy with other things
 
 
 class Failure(Exception):
@@ -111,10 +111,10 @@ class Process:
 
 
 class Programs:
-    """The programs of a build."""
+    """The programs of a devel space."""
 
-    def __init__(self, build):
-        self._folder = pathlib.Path(build) / "devel/lib/trk_bridge"
+    def __init__(self, devel):
+        self._folder = pathlib.Path(devel) / "lib/trk_bridge"
 
     def path(self, name):
         path = self._folder / name

@@ -216,12 +216,12 @@ def run(studio, minutes, rng, on_sample):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("minutes", metavar="MINUTES", type=float)
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="the build whose programs are tried")
+    own_machine.add_build_arguments(parser, ROOT / "build")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "build/soak", help="folder of the table, CSV and plot")
     parser.add_argument("--seed", type=int, help="of the faults; default: another one each time")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    own_machine.enter(ROOT, options.build, options.out)
+    own_machine.enter(options, ROOT, options.out)
     # With what ROS is imported, which --help does without.
     from laboratory import Laboratory
     from processes import wait_for
@@ -230,7 +230,7 @@ def main():
     print(f"seed {seed}", flush=True)
     rows = []
     with tempfile.TemporaryDirectory() as folder, (options.out / "soak.csv").open("w", encoding="utf-8") as file:
-        laboratory = Laboratory(options.build, ROOT, pathlib.Path(folder), seed, True, 2)
+        laboratory = Laboratory(options.devel, ROOT, pathlib.Path(folder), seed, True, 2)
 
         def on_sample(row):
             if not rows:
