@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes faults on purpose, on a machine of its own, and judges what arrives (doc/evidence.md)."""
+"""Makes faults on purpose, on a machine of its own, and judges what arrives (doc/faults.md)."""
 
 import argparse
 import pathlib

@@ -185,7 +185,7 @@ class Camera(contextlib.AbstractContextManager):
             lens = "?lens=" + str(laboratory.lens) if protocol == "freed" else ""
             source = source or f"{scheme}://127.0.0.1:{self.port}{lens}"
             self.node = stack.enter_context(
-                laboratory.node("trk_to_ros", "/" + self.name, source=source, **parameters))
+                laboratory.node("trk_to_ros", "/" + self.name, source=source, queue_size=10000, **parameters))
             self.node.wait(self.name, lambda *_: True, "the node reports")
             self.arrivals = sets.Arrivals(1, protocol != "freed", sets.FREE_D_ERROR if protocol == "freed" else None)
             self._listener = Listener(f"/{self.name}/params", self.arrivals.add)
@@ -232,6 +232,9 @@ class Camera(contextlib.AbstractContextManager):
                 self._laboratory.pause(0.3)
             self.forwarder.stop()
         values = self.settled()
+        # What is published is on its way for a moment.
+        with contextlib.suppress(Failure):
+            wait_for(lambda: self.arrivals.count >= int(values["received"]), "all arrives", 20)
         result.take(self.arrivals)
         result.lost = result.sent - result.arrived
         result.duplicates = int(values["duplicate"])

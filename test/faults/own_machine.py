@@ -66,6 +66,19 @@ def _hide_temporary(kept):
     run("umount", outside)
 
 
+INTERFACE = "trk0"  # of plug_in()
+
+
+def plug_in():
+    """An interface with an address and a cable, for groups."""
+    ip(f"link add {INTERFACE} type veth peer name far0", f"link set {INTERFACE} up", "link set far0 up",
+       f"addr add 10.9.0.1/24 dev {INTERFACE}")
+
+
+def unplug():
+    ip(f"link del {INTERFACE}")
+
+
 def everything():
     """What a test can leave behind: a set of texts."""
     return _segments() | _files() | _processes() | _interfaces()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """16 cameras at 120 Hz over all endpoints and protocols into ROS and out again, with faults from time to time. Judges what
-arrives, and whether memory, descriptors, threads and latency stay as they are (doc/evidence.md)."""
+arrives, and whether memory, descriptors, threads and latency stay as they are (doc/faults.md)."""
 
 import argparse
 import contextlib
@@ -23,7 +23,6 @@ RATE = 120  # Hz
 PERIOD = 10  # s, of samples
 ID_OF = {"ascii": (1, 2, 3, 4), "binary": (5, 6), "multicast": (7, 8), "opentrackio": (9, 10), "freed": (11, 12),
          "shm1": (13,), "shm2": (14,), "fifo1": (15,), "fifo2": (16,)}
-PLUG = ("link add trk0 type veth peer name far0", "link set trk0 up", "link set far0 up", "addr add 10.9.0.1/24 dev trk0")
 
 
 class Ages:
@@ -54,14 +53,14 @@ class Set(contextlib.ExitStack):
 
         self.laboratory = laboratory
         programs, log, folder = laboratory.programs, laboratory.log, laboratory.new_folder()
-        own_machine.ip(*PLUG)
-        self.callback(lambda: own_machine.ip("link del trk0"))
+        own_machine.plug_in()
+        self.callback(own_machine.unplug)
         self.port = {way: free_port() for way in ID_OF}
         to = {way: free_port() for way in ID_OF}
         lens = f"lens={laboratory.lens}"
         for fifo in ("fifo1", "fifo2"):
             os.mkfifo(folder / fifo)
-        group = "udp://239.9.9.9:7000?interface=trk0"
+        group = "udp://239.9.9.9:7000?interface=" + own_machine.INTERFACE
         # Where a relay writes, and where a node reads.
         self._sinks = {
             "binary": f"udp://127.0.0.1:{to['binary']}?binary=1", "multicast": group,
@@ -161,9 +160,9 @@ def send_rubbish(studio, rng):
 
 
 def recreate_interface(_, rng):
-    own_machine.ip("link del trk0")
+    own_machine.unplug()
     time.sleep(rng.random())
-    own_machine.ip(*PLUG)
+    own_machine.plug_in()
     return "the interface of the group is recreated"
 
 

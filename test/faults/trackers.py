@@ -60,12 +60,15 @@ class Path:
     corrupt: float = 0
 
 
+_SPACING = 0.008  # s, between sets of 100 Hz that are delayed
+
+
 class Forwarder:
     """A path between two ports of 127.0.0.1. It does what it is told to each set but the first, in a thread of its own, and
     knows afterwards what it did."""
 
     def __init__(self, to_port, path, rng, damage):
-        self.emitted = []  # (run, number) of the sets that were sent unharmed, in this order; None: of Free-D
+        self.emitted = []  # (run, number) of the sets that were sent unharmed, in this order; None: of other protocols
         self.corrupted = 0
         self._path, self._rng, self._damage = path, rng, damage
         self._to = ("127.0.0.1", to_port)
@@ -74,7 +77,7 @@ class Forwarder:
         self.port = self._socket.getsockname()[1]
         self._waiting = []  # (time, order, datagram): delayed
         self._held = []  # [others to pass, datagram]
-        self._order = 0
+        self._order, self._base = 0, 0.0
         self._ends = False
         self._thread = threading.Thread(target=self._forward, daemon=True)
         self._thread.start()
@@ -121,7 +124,9 @@ class Forwarder:
             return
         if path.delay or path.jitter:
             self._order += 1
-            due = time.monotonic() + path.delay + path.jitter * chance()
+            # Of those that come at once after a pause none overtakes more than when they come evenly.
+            self._base = max(time.monotonic(), self._base + _SPACING)
+            due = self._base + path.delay + path.jitter * chance()
             heapq.heappush(self._waiting, (due, self._order, datagram))
         else:
             self._send(datagram)
