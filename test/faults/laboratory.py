@@ -11,6 +11,7 @@ import rospy
 
 import own_machine
 import sets
+from counts import SHOWN, Counts
 from processes import Failure, Programs, free_port, wait_for
 from ros_side import Diagnostics, Listener, Master
 from trackers import Forwarder, Tracker, damage_byte, damage_text
@@ -37,42 +38,6 @@ class Result:
 
     def recovered(self, seconds):
         self.recovery = max(self.recovery or 0.0, seconds)
-
-
-@dataclass
-class Counts:
-    """What /diagnostics must show for sets that came in this order: [(run, number), …] of one sender at a time, whose next
-    run is a restart."""
-    received: int = 0
-    lost: int = 0
-    duplicate: int = 0
-    late: int = 0
-    restarts: int = 0
-
-    @classmethod
-    def of(cls, emitted):
-        counts, came, newest = cls(), set(), None
-        for run, number in emitted:
-            if newest is None or run != newest[0]:
-                counts.restarts += newest is not None
-                counts.received += 1
-                came, first, newest = {number}, number, (run, number)
-            elif number > newest[1]:
-                counts.received += 1
-                counts.lost += number - newest[1] - 1
-                newest = (run, number)
-            elif number in came:
-                counts.duplicate += 1
-            else:
-                counts.late += 1
-                counts.lost -= number > first
-            came.add(number)
-        return counts
-
-
-# Keys of /diagnostics for what Counts has.
-_SHOWN = {"received": "received", "lost": "lost", "duplicate": "duplicate", "late": "out of order",
-          "restarts": "restarts", "malformed": "malformed"}
 
 
 class Laboratory:
@@ -251,14 +216,14 @@ class Camera(contextlib.AbstractContextManager):
         def stand(_, values):
             if not seen or seen[-1] is not values:
                 seen.append(values)
-            return len(seen) > 2 and all(seen[-2][key] == values[key] for key in _SHOWN.values())
+            return len(seen) > 2 and all(seen[-2][key] == values[key] for key in SHOWN.values())
         return self.node.wait(self.name, stand, "the diagnostics settle")
 
     def _compare(self, result, values):
         emitted = self.forwarder.emitted
         expected = vars(Counts.of(emitted) if self._protocol == "trk" else Counts(received=len(emitted)))
         expected["malformed"] = self.forwarder.corrupted
-        for name, key in _SHOWN.items():
+        for name, key in SHOWN.items():
             # Without numbers (of trk only) nothing else is known.
             if self._protocol == "trk" or name in ("received", "malformed"):
                 result.expect(int(values[key]) == expected[name],

@@ -1,0 +1,38 @@
+"""What /diagnostics must show of sets that came."""
+
+from dataclasses import dataclass
+
+# Keys of /diagnostics for what Counts has, and for what is malformed.
+SHOWN = {"received": "received", "lost": "lost", "duplicate": "duplicate", "late": "out of order",
+          "restarts": "restarts", "malformed": "malformed"}
+
+
+@dataclass
+class Counts:
+    """What /diagnostics must show for sets that came in this order: [(run, number), …] of one sender at a time, whose next
+    run is a restart."""
+    received: int = 0
+    lost: int = 0
+    duplicate: int = 0
+    late: int = 0
+    restarts: int = 0
+
+    @classmethod
+    def of(cls, emitted):
+        counts, came, newest = cls(), set(), None
+        for run, number in emitted:
+            if newest is None or run != newest[0]:
+                counts.restarts += newest is not None
+                counts.received += 1
+                came, first, newest = {number}, number, (run, number)
+            elif number > newest[1]:
+                counts.received += 1
+                counts.lost += number - newest[1] - 1
+                newest = (run, number)
+            elif number in came:
+                counts.duplicate += 1
+            else:
+                counts.late += 1
+                counts.lost -= number > first
+            came.add(number)
+        return counts
