@@ -89,7 +89,7 @@ def rubbish(laboratory):
         said = []
         seconds = laboratory.choose(3, 30)
         tracker = camera.tracker()
-        laboratory.programs.rubbish(camera.port, 100000, seconds, laboratory.seed, laboratory.log("rubbish"),
+        laboratory.programs.rubbish(camera.port, 100000, seconds, laboratory.rng.randrange(1 << 32), laboratory.log("rubbish"),
                                     said.append).wait()
         ended = time.monotonic()
         number = tracker.sent
@@ -281,22 +281,22 @@ def jump(laboratory, is_simulated):
 @case
 def kills_udp(laboratory):
     """kill -9 of any process, over UDP."""
-    return kill(laboratory, "udp", laboratory.choose(6, 300))
+    return kill(laboratory, "udp", laboratory.kills(share=0.3))
 
 
 @case
 def kills_shm(laboratory):
     """kill -9 of any process, over shared memory."""
-    return kill(laboratory, "shm", laboratory.choose(6, 300))
+    return kill(laboratory, "shm", laboratory.kills(share=0.3))
 
 
 @case
 def kills_fifo(laboratory):
     """kill -9 of any process, over FIFOs."""
-    return kill(laboratory, "file", laboratory.choose(6, 200))
+    return kill(laboratory, "file", laboratory.kills(share=0.2))
 
 
 @case
 def kills_recorder(laboratory):
     """kill -9 of who records a take; the next one recovers it."""
-    return kill_recorders(laboratory, laboratory.choose(6, 200))
+    return kill_recorders(laboratory, laboratory.kills(share=0.2))

@@ -2,6 +2,7 @@
 
 import contextlib
 import itertools
+import logging
 import random
 import time
 from dataclasses import dataclass, field
@@ -41,15 +42,17 @@ class Result:
 
 
 class Laboratory:
-    """`most_recovery`: s."""
+    """`folder` is for its logs. What is random comes from `rng`, which the caller seeds for each case."""
 
-    def __init__(self, devel, root, folder, seed, is_long, most_recovery):
+    def __init__(self, devel, root, folder, is_long=False, kills=0):
         self.programs = Programs(devel)
         self.folder = folder
         self.lens = root / "config/lens_example.yaml"
-        self.seed, self.is_long, self.most_recovery = seed, is_long, most_recovery
-        self.rng = random.Random(seed)
+        self.rng = random.Random()
+        self._is_long, self._kills = is_long, kills
         self.master = Master(folder)
+        # Of what is killed on purpose it warns.
+        logging.getLogger("rospy").setLevel(logging.ERROR)
         rospy.init_node("faults", anonymous=True, disable_signals=True, disable_rosout=True)
         self.diagnostics = Diagnostics()
         self._names = (f"camera{number}" for number in itertools.count(1))
@@ -60,7 +63,11 @@ class Laboratory:
 
     def choose(self, short, long):
         """By the form of the run."""
-        return long if self.is_long else short
+        return long if self._is_long else short
+
+    def kills(self, share):
+        """Of all kills the share of a case."""
+        return max(1, round(share * self._kills))
 
     def new_folder(self):
         folder = self.folder / f"folder{next(self._logs)}"

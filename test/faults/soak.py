@@ -229,7 +229,7 @@ def main():
     print(f"seed {seed}", flush=True)
     rows = []
     with tempfile.TemporaryDirectory() as folder, (options.out / "soak.csv").open("w", encoding="utf-8") as file:
-        laboratory = Laboratory(options.devel, ROOT, pathlib.Path(folder), seed, True, 2)
+        laboratory = Laboratory(options.devel, ROOT, pathlib.Path(folder))
 
         def on_sample(row):
             if not rows:
