@@ -42,7 +42,7 @@ class Ages:
         return sorted(taken)
 
 
-class Set(contextlib.ExitStack):
+class Studio(contextlib.ExitStack):
     """What runs: trackers, relays, nodes, and what receives."""
 
     def __init__(self, laboratory):
@@ -205,7 +205,9 @@ def run(studio, minutes, rng, on_sample):
         row["latency 99 %"] = 1e3 * ages[len(ages) * 99 // 100] if ages else float("nan")
         for name, process in studio.nodes.items():
             row.update({f"{key} {name}": value for key, value in process.usage().items()})
-        on_sample(row)
+        # A sample in which the test itself was stopped says nothing about what it watches.
+        if now - last < 1.5 * PERIOD:
+            on_sample(row)
         last, before = now, counts
     ends.set()
     disturber.join()
@@ -239,7 +241,7 @@ def main():
 
         left = []
         with laboratory.leaving_nothing(left):
-            with Set(laboratory) as studio:
+            with Studio(laboratory) as studio:
                 try:
                     wait_for(lambda: all(studio.counts().values()), f"every camera sends; now {studio.counts()}")
                     done = run(studio, options.minutes, random.Random(seed), on_sample)
@@ -250,7 +252,7 @@ def main():
     lines, is_flat = verdict.judge(rows)
     arrived = sum(studio.counts().values())
     wrong += verdict.stopped(rows)
-    text = "\n".join([f"{options.minutes:g} minutes, {len(done)} faults, {sent} sets of each camera sent, {arrived} arrived",
+    text = "\n".join([f"{options.minutes:g} minutes, {len(rows)} samples, {len(done)} faults, {sent} sets of each camera sent, {arrived} arrived",
                       *table(lines), *(f"wrong: {one}" for one in wrong)])
     (options.out / "soak.txt").write_text(text + "\n", encoding="utf-8")
     (options.out / "soak.svg").write_text(verdict.plot(rows), encoding="utf-8")
