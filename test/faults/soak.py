@@ -249,11 +249,15 @@ def main():
                 finally:
                     studio.kill_all()
         wrong += left + [fault for fault in done if fault.startswith("FAILED")]
+    if len(rows) < 6:
+        print(f"{len(rows)} samples are too few: give it a minute or more")
+        return 1
     lines, is_flat = verdict.judge(rows)
     arrived = sum(studio.counts().values())
     wrong += verdict.stopped(rows)
-    text = "\n".join([f"{options.minutes:g} minutes, {len(rows)} samples, {len(done)} faults, {sent} sets of each camera sent, {arrived} arrived",
-                      *table(lines), *(f"wrong: {one}" for one in wrong)])
+    summary = (f"{options.minutes:g} minutes, {len(rows)} samples, {len(done)} faults; of each of 16 cameras {sent} sets were "
+               f"sent, {arrived} arrived of all, the one that was sent out again counted twice")
+    text = "\n".join([summary, *table(lines), *(f"wrong: {one}" for one in wrong)])
     (options.out / "soak.txt").write_text(text + "\n", encoding="utf-8")
     (options.out / "soak.svg").write_text(verdict.plot(rows), encoding="utf-8")
     print(text)
