@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """A plot's frame: a grid with numbers, and where a point of the data is on the page."""
 
 from .svg import INK

@@ -34,9 +34,9 @@ struct CounterClockStatistics {
 class CounterClock {
  public:
   /// The stamp of the next sample, ns on the clock of `arrival` (since 1970; not in the last second that the type can
-  /// hold): never after `arrival`, at most `most_early` before it, and after the one before as far as `arrival` is.
-  /// `counts`: how far its counter is ahead of the sample before it; 0 where that says nothing, because the counter
-  /// began again.
+  /// hold): never after `arrival`, at most `most_early` before it, and later than the stamp before if `arrival` is later.
+  /// `counts`: by how much the counter increased since the sample before; 0 if that is unknown because the counter
+  /// restarted.
   [[nodiscard]] std::int64_t stamp(std::uint64_t counts, std::int64_t arrival) noexcept;
 
   /// Starts over: the next sample is the first of another sender, or the counter stopped counting.

@@ -183,7 +183,7 @@ Read<std::vector<Point>> points_of(const YamlValue& rows, const std::optional<wi
         return fault(row.Mark(), "zoom " + text_of(point->at.zoom) + ": must be at least " + text_of(least_step) +
                                      " more than that of the row before");
       }
-      if (!goes_on(before.lens.image_distance, point->lens.image_distance, sign)) {
+      if (!is_monotonic_step(before.lens.image_distance, point->lens.image_distance, sign)) {
         return fault(row.Mark(), "zoom " + text_of(point->at.zoom) +
                                      ": the focal length must rise with zoom, or fall, " + "in all rows alike");
       }

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """The faults: a case is a function of the laboratory that returns a Result, and its first line says what is done."""
 
 import json

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """What /diagnostics must show of sets that came."""
 
 from dataclasses import dataclass

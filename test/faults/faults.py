@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Makes faults on purpose, on a machine of its own, and judges what arrives (doc/faults.md)."""
 
 import argparse

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Whether the judges of faults and soak find what is wrong."""
 
 import random

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """kill -9 of every process between a tracker and its receivers, at random moments, over one transport."""
 
 import contextlib

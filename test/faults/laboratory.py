@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """What every case uses: a master, nodes, cameras on the way into ROS, and the judgement of what arrived."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """A machine of a test's own: networks, shared memory, processes and /tmp that nobody else sees.
 
 They are namespaces of the kernel. What is left in them ends with the test, however that ends.

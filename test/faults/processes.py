@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Programs as processes that a test starts, kills and waits for."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """What a test has of ROS: a master, a subscriber of everything, and nodes."""
 
 import os

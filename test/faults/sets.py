@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Camera sets that can be recognised: every value is a function of the camera's id, the run of its sender and the number
 of the set, so that a receiver knows of each set whether it was sent like this."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """16 cameras at 120 Hz over all endpoints and protocols into ROS and out again, with faults from time to time. Judges what
 arrives, and whether memory, descriptors, threads and latency stay as they are (doc/faults.md)."""
 

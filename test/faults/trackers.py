@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """What sends to the programs that are tested, and what stands between: a tracker, a bad path, rubbish."""
 
 import heapq

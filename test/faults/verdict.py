@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Whether what a soak has sampled stays as it is: a table and a plot."""
 
 import math

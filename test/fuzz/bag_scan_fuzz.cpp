@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a bag: its records one after another, and what its index says.
 #include <sstream>
 #include <string>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any calls of the C interface in any order, with arguments sound and unsound: what they give is what the headers say,
 // and the handles that are open stay usable.
 #include <algorithm>

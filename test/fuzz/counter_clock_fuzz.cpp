@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any counters and arrivals, in any order: verdicts on counters, the line through arrivals, and stamps.
 #include <chrono>
 #include <cmath>

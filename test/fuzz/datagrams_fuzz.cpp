@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any datagrams of several senders, in any order, for the decoders of every protocol; what they give, written by the
 // encoders and read again.
 #include <array>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any text as an endpoint: its parts, printed and read again, and as a source and a sink of every scheme.
 #include <algorithm>
 #include <cctype>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // What fuzz targets have in common: claims, and numbers from the bytes of an input.
 #pragma once
 

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Lenses and CameraInfos of any numbers: fits, both ways, and records through every format.
 #include <array>
 #include <cmath>

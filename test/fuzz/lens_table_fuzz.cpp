@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any text as a lens table, and lenses at any counts of one that is sound.
 #include <cmath>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any tree of parameters for every node: what is read keeps its ranges, or every fault is a line of its own.
 #include <cmath>
 #include <sstream>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Runs the fuzzers of a tree, prints a table of what they found, and minimises their corpora. See scripts/fuzz."""
 import argparse
 import concurrent.futures

@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // A segment that changes under its reader: by a writer of the field, word by word between any two instructions of a
 // read, and by bytes of any kind at any place.
 #include <csignal>

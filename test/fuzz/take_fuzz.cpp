@@ -1,3 +1,4 @@
+// Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a take: read strictly, leniently, and played with the times of its fields.
 #include <algorithm>
 #include <chrono>
