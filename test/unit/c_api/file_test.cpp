@@ -1,6 +1,5 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 // Transfer by file, and all its misuses.
-#include <cstring>
 #include <fstream>
 #include <string>
 
@@ -15,6 +14,7 @@ namespace {
 using trk_bridge::test::constants_in_c;
 using trk_bridge::test::no_handles;
 using trk_bridge::test::params_in_c;
+using trk_bridge::test::text_of;
 
 class File : public ::testing::Test {
  protected:
@@ -37,11 +37,11 @@ TEST_F(File, passes_a_take) {
   ASSERT_EQ(trkFileClose(handle), trkOK);
   ASSERT_EQ(trkFileOpenRead(name.c_str(), time_code, &c, &handle), trkOK);
   EXPECT_STREQ(time_code, "10:20:30:12:2");
-  EXPECT_EQ(std::memcmp(&c, &constants_in_c, sizeof c), 0);
+  EXPECT_EQ(text_of(c), text_of(constants_in_c));
   for (unsigned long i = 1; i <= 3; ++i) {
     ASSERT_EQ(trkFileReadParams(handle, &p), trkOK);
     const trkCameraParams expected = params_in_c(i);
-    EXPECT_EQ(std::memcmp(&p, &expected, sizeof p), 0);
+    EXPECT_EQ(text_of(p), text_of(expected));
   }
   EXPECT_EQ(trkFileReadParams(handle, &p), trkUnavailable);
   EXPECT_EQ(trkFileWriteParams(handle, &p), trkInvalidHandle) << "it is for reading";

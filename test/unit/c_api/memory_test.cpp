@@ -30,6 +30,7 @@ using trk_bridge::test::constants_in_c;
 using trk_bridge::test::FreeSlot;
 using trk_bridge::test::no_handles;
 using trk_bridge::test::params_in_c;
+using trk_bridge::test::text_of;
 
 class Memory : public ::testing::Test {
  protected:
@@ -52,10 +53,10 @@ TEST_F(Memory, passes_parameters_and_constants) {
   ASSERT_EQ(trkMemWriteConstants(writer, &constants_in_c), trkOK);
   ASSERT_EQ(trkMemWriteParams(writer, &sent), trkOK);
   ASSERT_EQ(trkMemReadParams(reader, &p), trkOK);
-  EXPECT_EQ(std::memcmp(&p, &sent, sizeof p), 0);
+  EXPECT_EQ(text_of(p), text_of(sent));
   EXPECT_EQ(trkMemReadParams(reader, &p), trkUnavailable);
   ASSERT_EQ(trkMemReadConstants(reader, &c), trkOK);
-  EXPECT_EQ(std::memcmp(&c, &constants_in_c, sizeof c), 0);
+  EXPECT_EQ(text_of(c), text_of(constants_in_c));
   EXPECT_EQ(trkMemReadConstants(reader, &c), trkUnavailable);
   ASSERT_EQ(trkMemWriteConstants(writer, &constants_in_c), trkOK);
   EXPECT_EQ(trkMemReadConstants(reader, &c), trkOK) << "a set that is written again is new";
@@ -185,7 +186,7 @@ TEST_F(Memory, a_reader_alone_detaches_and_reattaches) {
   ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
   ASSERT_EQ(trkMemWriteConstants(writer, &constants_in_c), trkOK);
   EXPECT_TRUE(becomes_true([&] { return trkMemReadConstants(reader, &c) == trkOK; }));
-  EXPECT_EQ(std::memcmp(&c, &constants_in_c, sizeof c), 0);
+  EXPECT_EQ(text_of(c), text_of(constants_in_c));
 }
 
 TEST_F(Memory, memory_that_is_not_trk_is_of_an_invalid_version) {

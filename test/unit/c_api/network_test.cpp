@@ -20,6 +20,7 @@ using trk_bridge::test::no_handles;
 using trk_bridge::test::params_in_c;
 using trk_bridge::test::PlainSocket;
 using trk_bridge::test::ReservedPort;
+using trk_bridge::test::text_of;
 
 /// Like trkNetOpenRead of the document.
 trkError open_read(int port, trkHandle* handle) {
@@ -68,10 +69,10 @@ TEST_P(Net, the_newest_parameters_are_read) {
   send({1, 2, 3});
   ASSERT_EQ(trkNetReadParams(reader, &p), trkOK);
   const trkCameraParams expected = params_in_c(3);
-  EXPECT_EQ(std::memcmp(&p, &expected, sizeof p), 0);
+  EXPECT_EQ(text_of(p), text_of(expected));
   EXPECT_EQ(trkNetReadParams(reader, &p), trkUnavailable);
   ASSERT_EQ(trkNetReadConstants(reader, &c), trkOK);
-  EXPECT_EQ(std::memcmp(&c, &constants_in_c, sizeof c), 0);
+  EXPECT_EQ(text_of(c), text_of(constants_in_c));
   EXPECT_EQ(trkNetReadConstants(reader, &c), trkUnavailable);
 }
 
@@ -213,7 +214,7 @@ TEST_P(Net, the_last_constants_can_be_read_again) {
   ASSERT_EQ(trkNetWriteConstants(writer, &constants_in_c), trkOK);
   for (int i = 0; i < 2; ++i) {
     ASSERT_EQ(trkNetReadConstants2(reader, &c), trkOK);
-    EXPECT_EQ(std::memcmp(&c, &constants_in_c, sizeof c), 0);
+    EXPECT_EQ(text_of(c), text_of(constants_in_c));
   }
   EXPECT_EQ(trkNetReadConstants(reader, &c), trkUnavailable);
   EXPECT_EQ(trkNetReadConstants2(nullptr, &c), trkInvalidHandle);
