@@ -353,8 +353,8 @@ TEST_F(RelayTest, ATakeThatIsPlayedAsFastAsPossibleLosesNothing) {
   EXPECT_EQ(slow.count(), 2 * sets);
 }
 
-TEST_F(RelayTest, NothingReceivedBeforeALimitIsAnExitCodeOfItsOwn) {
-  add_gate();
+TEST_F(RelayTest, NothingReceivedBeforeALimitHasItsExitCode) {
+  add_sink();
   FanOut sinks(err);
   for (const auto& endpoint : to) sinks.add(endpoint, {});
   EXPECT_EQ(relay(*feed.source(), sinks, 0.01), cli::exit_nothing);
