@@ -1,6 +1,6 @@
 # Installs to an empty folder, moves it, and hides the source and the build if private mounts are permitted. Then builds
 # and runs programs of another project, which find the package with CMake and with pkg-config, and uses the installed
-# files.
+# files. Checks that each of them is in a Debian package.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -13,12 +13,18 @@ endfunction()
 execute_process(COMMAND mktemp -d OUTPUT_VARIABLE PLACE OUTPUT_STRIP_TRAILING_WHITESPACE)
 set(PREFIX ${PLACE}/prefix)
 set(CONSUMER_BUILD ${PLACE}/build)
+# Not by another prefix: catkin's setup files go to the one that was configured.
+set(ENV{DESTDIR} ${PLACE}/installed)
+run(${CMAKE_COMMAND} -P ${BUILD}/cmake_install.cmake)
 unset(ENV{DESTDIR})
-run(${CMAKE_COMMAND} -DCMAKE_INSTALL_PREFIX=${PREFIX} -P ${BUILD}/cmake_install.cmake)
-# The libraries are found at their current place, not at the original one.
-file(RENAME ${PREFIX} ${PREFIX}_moved)
-set(PREFIX ${PREFIX}_moved)
+# The libraries are found where they are, not where they were put first.
+file(RENAME ${PLACE}/installed${INSTALL_PREFIX} ${PREFIX})
 file(COPY ${SOURCE}/test/install/ ${SOURCE}/test/data/field/takes/euler.trk DESTINATION ${PLACE}/test)
+set(without_ros)
+if(NOT WITH_ROS)
+  set(without_ros --without-ros)
+endif()
+run(${PYTHON} -B ${SOURCE}/test/install/packages_test.py --prefix ${PREFIX} --debian ${SOURCE}/debian ${without_ros})
 set(ENV{PREFIX} ${PREFIX})
 set(ENV{VERSION} ${VERSION})
 
