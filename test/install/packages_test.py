@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Compares an installation with the file lists of the Debian packages, debian/*.install.
 
 packages_test.py --prefix PREFIX --debian FOLDER [--without-ros]. Every installed file must be in exactly one package, and
