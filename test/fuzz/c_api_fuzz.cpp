@@ -1,6 +1,6 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-// Any calls of the C interface in any order, with arguments sound and unsound: what they give is what the headers say,
-// and the handles that are open stay usable.
+// Any calls of the C interface in any order, with valid and invalid arguments: what they return is what the headers
+// say, and the handles that are open stay usable.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -90,7 +90,7 @@ class Program {
   explicit Program(Input& input) : input_(input) {}
 
   void run() {
-    // Of each function once, so that none is left out.
+    // Of each function once, so that none is missing.
     trkMemConfigure(trkMemDefault);
     for (int calls = 0; !input_.is_empty() && calls < 200; ++calls) call();
     finish();
@@ -130,7 +130,7 @@ class Program {
 
   void opened(Kind kind, trkError got, bool may_succeed, trkHandle handle) {
     claim(got == trkOK || got == trkFailed || got == trkInvalidVersion, "an open that gives " + std::to_string(got));
-    claim(got != trkOK || may_succeed, "opened with unsound arguments");
+    claim(got != trkOK || may_succeed, "opened with invalid arguments");
     if (got != trkOK) {
       claim(handle == nullptr, "a handle of an open that failed");
       return;
@@ -194,7 +194,7 @@ class Program {
         trkCameraConstants constants{};
         const trkError got = trkFileOpenRead(name, or_null(input_, code[0]), or_null(input_, constants), into);
         opened(Kind::playback, got, name != nullptr && into != nullptr, handle);
-        if (got == trkOK) claim(std::strlen(code.data()) < trkTimeCodeSize && is_finite(constants), "an unsound head");
+        if (got == trkOK) claim(std::strlen(code.data()) < trkTimeCodeSize && is_finite(constants), "an invalid head");
         break;
       }
       case 2: {
@@ -296,14 +296,14 @@ class Program {
     }
   }
 
-  /// Of a write: refused where the record is unsound; where it is sound, by the system and by files alone.
+  /// Of a write: refused if the record is invalid; if it is valid, only by the system and by files.
   template <typename Record>
   void claim_write(trkError got, trkHandle handle, Kind kind, const Record* record) {
     claim_result(got, handle, kind, record == nullptr);
     if (record == nullptr || !is_open(handle, kind)) return;
     claim(got == trkOK || got == trkFailed, "a write that gives " + std::to_string(got));
     if (!is_writable(*record)) {
-      claim(got == trkFailed, "an unsound record that is written");
+      claim(got == trkFailed, "an invalid record was written");
     } else if (kind == Kind::memory) {
       claim(got == trkOK, "a sound record that is not written");
     }

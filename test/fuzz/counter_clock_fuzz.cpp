@@ -135,7 +135,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   if (use == base::CounterUse::ignore) return 0;
   // Whatever came, a tracker of 50 Hz is learned.
-  for (int i = 0; i < 6000; ++i) camera.take(++counter, begin + i * 20'000'000 + i % 3 * 300'000);
+  for (int i = 0; i < 6000; ++i) camera.take(++counter, begin + i * std::int64_t{20'000'000} + i % 3 * 300'000);
   claim(camera.statistics().learned, "a rhythm that is not learned");
   claim(std::abs(camera.statistics().interval - 20e6) < 20e3, "an interval that is wrong");
   return 0;

@@ -21,7 +21,7 @@ using namespace trk_bridge;
 using file::TakeReader;
 using test::claim;
 
-/// A field or a line that is left out.
+/// A field, or a line that is skipped.
 using Line = std::variant<wire::CameraParams, transport::Fault>;
 
 struct Contents {
@@ -32,9 +32,9 @@ struct Contents {
   std::string error;  ///< empty: read to its end
 };
 
-Contents read(const std::string& path, file::Unsound unsound) {
+Contents read(const std::string& path, file::MalformedLines malformed) {
   Contents contents;
-  TakeReader reader(path, unsound, file::Waiting::never);
+  TakeReader reader(path, malformed, file::Waiting::never);
   for (;;) {
     switch (reader.next()) {
       case TakeReader::Got::head:
@@ -46,13 +46,13 @@ Contents read(const std::string& path, file::Unsound unsound) {
       case TakeReader::Got::params:
         contents.lines.emplace_back(reader.params());
         break;
-      case TakeReader::Got::left_out:
-        claim(unsound == file::Unsound::is_left_out, "a line left out that is an error");
+      case TakeReader::Got::skipped:
+        claim(malformed == file::MalformedLines::are_skipped, "a skipped line must be an error");
         contents.lines.emplace_back(reader.fault());
         break;
-      case TakeReader::Got::cut:
+      case TakeReader::Got::truncated:
         contents.lines.emplace_back(reader.fault());
-        claim(reader.next() == TakeReader::Got::end, "something behind a line that is cut");
+        claim(reader.next() == TakeReader::Got::end, "something after a truncated line");
         return contents;
       case TakeReader::Got::end:
         return contents;
@@ -65,7 +65,7 @@ Contents read(const std::string& path, file::Unsound unsound) {
   }
 }
 
-void claim_sound(const Contents& contents, const std::string& path, std::size_t lines) {
+void claim_valid(const Contents& contents, const std::string& path, std::size_t lines) {
   claim(contents.lines.size() <= lines, "more fields than lines");
   if (!contents.error.empty()) {
     const std::string begin = path + ":";
@@ -98,7 +98,7 @@ void claim_agreement(const Contents& strict, const Contents& lenient) {
   if (strict.error.empty() || !strict.has_head) {
     claim(strict.error == lenient.error && strict.lines.size() == lenient.lines.size(), "two ends of the same take");
   } else {
-    claim(lenient.lines.size() > strict.lines.size(), "an error, and no line that is left out");
+    claim(lenient.lines.size() > strict.lines.size(), "an error, and no line was skipped");
   }
 }
 
@@ -150,9 +150,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   take.write(bytes);
   const std::string path = take.path();
   const auto lines = static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), '\n')) + 1;
-  const Contents strict = read(path, file::Unsound::is_error), lenient = read(path, file::Unsound::is_left_out);
-  claim_sound(strict, path, lines);
-  claim_sound(lenient, path, lines);
+  const Contents strict = read(path, file::MalformedLines::are_errors),
+                 lenient = read(path, file::MalformedLines::are_skipped);
+  claim_valid(strict, path, lines);
+  claim_valid(lenient, path, lines);
   claim_agreement(strict, lenient);
   for (const double rate : {50.0, 59.94, 25.0}) {
     claim_played(strict, path, rate, false);
