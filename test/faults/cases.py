@@ -20,7 +20,7 @@ def case(function):
     return function
 
 
-def over(laboratory, path, seconds=(3, 60), **options):
+def over(laboratory, path, seconds=(2, 60), **options):
     """A camera over this path."""
     with laboratory.camera(path, **options) as camera:
         camera.send(laboratory.choose(*seconds))
