@@ -78,7 +78,7 @@ const Wrong wrong_ones[] = {
        t["format"] = "euler";
        t["preset"] = "orad";
      },
-     "~preset = 'orad'", "must not be given with format"},
+     "~preset = 'orad'", "must not be set together with format"},
     {"Queue", [](XmlRpcValue& t) { t["queue_size"] = 0; }, "~queue_size = 0", "1 to 100000"},
     {"Constants",
      [](XmlRpcValue& t) {

@@ -149,7 +149,7 @@ TEST(Detect, TheReadingThatAcceptsMoreIsUsed) {
   const auto mostly_right = heads_found(5, false);
   ASSERT_EQ(mostly_right.size(), 1u);
   EXPECT_EQ(mostly_right.begin()->first, "");
-  EXPECT_THAT(mostly_right.begin()->second.at("doubts").dump(), HasSubstr("only checksum=lenient takes"));
+  EXPECT_THAT(mostly_right.begin()->second.at("doubts").dump(), HasSubstr("only checksum=lenient accepts"));
 }
 
 TEST(Detect, AMessageThatCannotBeReadIsNamedWithItsProtocol) {
