@@ -4,7 +4,7 @@ install(EXPORT trk_bridge NAMESPACE trk_bridge:: FILE trk_bridgeTargets.cmake DE
 if(TRK_BRIDGE_ROS)
   # catkin makes trk_bridgeConfig.cmake; the devel space has targets, too.
   export(EXPORT trk_bridge NAMESPACE trk_bridge::
-    FILE ${CATKIN_DEVEL_PREFIX}/${TRK_BRIDGE_CMAKE_DIR}/trk_bridgeTargets.cmake)
+    FILE ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake/trk_bridgeTargets.cmake)
 else()
   include(CMakePackageConfigHelpers)
   configure_file(cmake/trk_bridge-extras.cmake.in trk_bridgeConfig.cmake @ONLY)

@@ -71,8 +71,11 @@ if(in_own_build_folder EQUAL 0)
 endif()
 set(TRK_BRIDGE_INCLUDE_DIR ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 set(TRK_BRIDGE_SHARE_DIR ${CATKIN_PACKAGE_SHARE_DESTINATION})
-# Where catkin_package() puts its files.
+# Where catkin_package() puts its own; Debian's catkin, for /usr, below the libraries.
 set(TRK_BRIDGE_CMAKE_DIR ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
+if(NOT CATKIN_GLOBAL_LIB_DESTINATION STREQUAL "lib")
+  set(TRK_BRIDGE_CMAKE_DIR ${CATKIN_GLOBAL_LIB_DESTINATION}/cmake/${PROJECT_NAME})
+endif()
 
 install(DIRECTORY include/trk_bridge/ros DESTINATION ${TRK_BRIDGE_INCLUDE_DIR}/trk_bridge FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY config launch urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} PATTERN presets.yaml EXCLUDE)

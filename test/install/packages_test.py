@@ -22,6 +22,9 @@ def packaged_path(path, without_ros):
         return None
     if parts[0] == "lib" and parts[1] != "trk_bridge" and not parts[1].startswith("python"):
         return "/".join((MULTIARCH, *parts[1:]))
+    # Debian's catkin, for /usr.
+    if parts[:3] == ("share", "trk_bridge", "cmake") and not path.name.endswith("-msg-paths.cmake"):
+        return "/".join((MULTIARCH, "cmake/trk_bridge", *parts[3:]))
     # debian/rules moves these, and makes the link that there is with ROS.
     if without_ros and parts[0] == "bin":
         return "/".join(("usr/lib/trk_bridge", *parts[1:]))
