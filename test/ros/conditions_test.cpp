@@ -77,7 +77,8 @@ TEST_F(Conditions, ASecondSenderIsIgnoredAndNamedUntilTheFirstIsSilent) {
       tracker->send(test::params(++counter));
       second.send(test::params(1'000'000 + counter));
     });
-    ASSERT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN, "are ignored: this camera follows " + first_address));
+    ASSERT_TRUE(diagnostics.reports(status_name(), DiagnosticStatus::WARN,
+                                    "are ignored: this camera follows " + first_address));
     ASSERT_TRUE(eventually([this] { return params->messages.size() > 20; }));
     EXPECT_TRUE(std::all_of(params->messages.begin(), params->messages.end(),
                             [](const auto& message) { return message.counter < 1'000'000; }));
