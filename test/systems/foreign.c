@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* A program of another machine, in the words of the protocol's document alone: what its compiler makes of the structures is
  * what it sends and what it has in shared memory. It is built by compilers for other machines, and for each generation.
  *

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Processes of another machine and our programs send each other records, exactly.
 
 foreign_test.py --machine NAME --programs FOLDER --trk PROGRAM. In FOLDER are NAME_document and NAME_identified, which foreign.c

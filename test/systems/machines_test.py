@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 """Programs on machines that lack something work, or say exactly what is wrong.
 
 machines_test.py --trk PROGRAM --write-mem PROGRAM --no-ipv6 LIBRARY --take FILE --lens FILE. Each machine is this one in namespaces of its

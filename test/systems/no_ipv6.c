@@ -1,3 +1,4 @@
+/* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
 /* Loaded before a program: the kernel has no IPv6, as after ipv6.disable=1 at boot. */
 #define _GNU_SOURCE
 #include <errno.h>
