@@ -34,9 +34,9 @@ struct CounterClockStatistics {
 class CounterClock {
  public:
   /// The stamp of the next sample, ns on the clock of `arrival` (since 1970; not in the last second that the type can
-  /// hold): never after `arrival`, at most `most_early` before it, and later than the stamp before if `arrival` is later.
-  /// `counts`: by how much the counter increased since the sample before; 0 if that is unknown because the counter
-  /// restarted.
+  /// hold): never after `arrival`, at most `most_early` before it, and later than the stamp before if `arrival` is
+  /// later. `counts`: by how much the counter increased since the sample before; 0 if that is unknown because the
+  /// counter restarted.
   [[nodiscard]] std::int64_t stamp(std::uint64_t counts, std::int64_t arrival) noexcept;
 
   /// Starts over: the next sample is the first of another sender, or the counter stopped counting.

@@ -1,6 +1,7 @@
 /* Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause */
-/* A program of another machine, in the words of the protocol's document alone: what its compiler makes of the structures is
- * what it sends and what it has in shared memory. It is built by compilers for other machines, and for each generation.
+/* A program of another machine, in the words of the protocol's document alone: what its compiler makes of the
+ * structures is what it sends and what it has in shared memory. It is built by compilers for other machines, and for
+ * each generation.
  *
  *   foreign sizes            prints the bytes of parameters, constants and a segment
  *   foreign send PORT        sends each record of standard input to 127.0.0.1 in a binary datagram
@@ -9,9 +10,9 @@
  *                            standard input; closes at its end, and removes the memory when it is the last
  *   foreign read FILE        waits for that memory, prints "open", then each record that is written there
  *
- * A record is a line: "params ID FORMAT T FOV CENTERX CENTERY K1 K2 FOCDIST APERTURE COUNTER", where T are the 16 numbers of
- * the matrix, or "constants ID WIDTH HEIGHT LEFT RIGHT TOP BOTTOM" and the 4 sizes of chips. Doubles are hexadecimal,
- * which is exact. It ends after as many records as COUNT in the environment says. */
+ * A record is a line: "params ID FORMAT T FOV CENTERX CENTERY K1 K2 FOCDIST APERTURE COUNTER", where T are the 16
+ * numbers of the matrix, or "constants ID WIDTH HEIGHT LEFT RIGHT TOP BOTTOM" and the 4 sizes of chips. Doubles are
+ * hexadecimal, which is exact. It ends after as many records as COUNT in the environment says. */
 #define _GNU_SOURCE
 #include <arpa/inet.h>
 #include <stdio.h>
@@ -70,7 +71,8 @@ static int get(Record* record) {
   } else {
     trkCameraConstants* const c = &record->constants;
     if (scanf("%d %d %d %d %d %d %lf %lf %lf %lf", &c->imageWidth, &c->imageHeight, &c->blankLeft, &c->blankRight,
-              &c->blankTop, &c->blankBottom, &c->chipWidth, &c->chipHeight, &c->fakeChipWidth, &c->fakeChipHeight) != 10)
+              &c->blankTop, &c->blankBottom, &c->chipWidth, &c->chipHeight, &c->fakeChipWidth,
+              &c->fakeChipHeight) != 10)
       return 0;
   }
 #ifdef TRK_IDENTIFIED
@@ -128,7 +130,8 @@ static void receive_records(int count) {
   socklen_t length = sizeof me;
   const int fd = open_socket(&me, 0);
   char bytes[4096];
-  if (bind(fd, (struct sockaddr*)&me, sizeof me) != 0 || getsockname(fd, (struct sockaddr*)&me, &length) != 0) fail("bind");
+  if (bind(fd, (struct sockaddr*)&me, sizeof me) != 0 || getsockname(fd, (struct sockaddr*)&me, &length) != 0)
+    fail("bind");
   printf("%u\n", (unsigned)ntohs(me.sin_port));
   while (count-- > 0) {
     const ssize_t size = recv(fd, bytes, sizeof bytes, 0);
@@ -222,7 +225,8 @@ int main(int argc, char** argv) {
   const char* const what = argc > 1 ? argv[1] : "";
   setvbuf(stdout, NULL, _IOLBF, 0);
   if (strcmp(what, "sizes") == 0) {
-    printf("%u %u %u\n", (unsigned)sizeof(trkCameraParams), (unsigned)sizeof(trkCameraConstants), (unsigned)sizeof(Segment));
+    printf("%u %u %u\n", (unsigned)sizeof(trkCameraParams), (unsigned)sizeof(trkCameraConstants),
+           (unsigned)sizeof(Segment));
   } else if (strcmp(what, "send") == 0 && argc > 2) {
     send_records(atoi(argv[2]));
   } else if (strcmp(what, "receive") == 0) {

@@ -52,7 +52,8 @@ TEST(OpenTrackIoUrl, Reading) {
 
   EXPECT_THAT(read_error("opentrackio://?source=201"), AllOf(HasSubstr("source = \"201\""), HasSubstr("1 to 200")));
   EXPECT_THAT(read_error("opentrackio://192.0.2.7?source=3"), HasSubstr("remove one of them"));
-  EXPECT_THAT(read_error("opentrackio://:0?source=3"), AllOf(HasSubstr("source = \"3\""), HasSubstr("a port other than 0")));
+  EXPECT_THAT(read_error("opentrackio://:0?source=3"),
+              AllOf(HasSubstr("source = \"3\""), HasSubstr("a port other than 0")));
   EXPECT_THAT(read_error("opentrackio://?tai_offset=x"), HasSubstr("tai_offset"));
   EXPECT_THAT(read_error("opentrackio://?profile=unreal"), HasSubstr("is for writing"));
   EXPECT_THAT(read_error("opentrackio://?sources=3"), HasSubstr("unknown option sources"));
