@@ -2,7 +2,6 @@
 """Programs as processes that a test starts, kills and waits for."""
 
 import contextlib
-import ctypes
 import json
 import pathlib
 import signal
@@ -34,15 +33,18 @@ def wait_for(condition, what, seconds=PATIENCE):
         waited, last = waited + min(now - last, 0.5), now
 
 
+_given_ports = set()
+
+
 def free_port(kind=socket.SOCK_DGRAM):
-    """Nobody else is on this machine."""
-    with socket.socket(socket.AF_INET, kind) as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
-
-def _end_with_parent():
-    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+    """One that was not given before. Nobody else is on this machine."""
+    while True:
+        with socket.socket(socket.AF_INET, kind) as one:
+            one.bind(("127.0.0.1", 0))
+            port = one.getsockname()[1]
+        if port not in _given_ports:
+            _given_ports.add(port)
+            return port
 
 
 class Process:

@@ -114,8 +114,8 @@ class Listener:
 
 
 class Crane:
-    """A camera on tf, with its CameraInfo, at 50 Hz, whose x is one more each time (m), by a clock that is `offset` seconds off. Simulated: it
-    is the clock that /clock shows, too; nodes that start meanwhile use that."""
+    """A camera on tf, with its CameraInfo, at 50 Hz. Its x is one more each time (m), its clock is `offset` seconds off. If it
+    is simulated, /clock shows that clock as well, and nodes that start meanwhile use it."""
 
     def __init__(self, name, is_simulated):
         self.offset, self.at = 0, 0

@@ -5,7 +5,6 @@ arrives, and whether memory, descriptors, threads and latency stay as they are (
 
 import argparse
 import contextlib
-import csv
 import os
 import pathlib
 import random
@@ -15,6 +14,7 @@ import tempfile
 import threading
 import time
 import traceback
+from dataclasses import dataclass
 
 import own_machine
 import verdict
@@ -22,8 +22,30 @@ from faults import ROOT, table
 
 RATE = 120  # Hz
 PERIOD = 10  # s, of samples
-ID_OF = {"ascii": (1, 2, 3, 4), "binary": (5, 6), "multicast": (7, 8), "opentrackio": (9, 10), "freed": (11, 12),
-         "shm1": (13,), "shm2": (14,), "fifo1": (15,), "fifo2": (16,)}
+GROUP = "udp://239.9.9.9:7000?interface=" + own_machine.INTERFACE
+FREE_D = "freed://127.0.0.1:{port}?lens={lens}"
+
+
+@dataclass(frozen=True)
+class Way:
+    """Into ROS. `{port}`, `{lens}` and `{folder}` in URLs are filled in."""
+    cameras: tuple  # ids
+    node: str  # that reads
+    sink: str  # of the relay behind the tracker; empty: there is none
+    source: str
+
+
+WAYS = {
+    "ascii": Way((1, 2, 3, 4), "network", "", "udp://127.0.0.1:{port}"),
+    "binary": Way((5, 6), "network", "udp://127.0.0.1:{port}?binary=1", "udp://127.0.0.1:{port}"),
+    "multicast": Way((7, 8), "network", GROUP, GROUP),
+    "opentrackio": Way((9, 10), "network", "opentrackio://127.0.0.1:{port}?encoding=cbor", "opentrackio://127.0.0.1:{port}"),
+    "freed": Way((11, 12), "network", FREE_D, FREE_D),
+    "shm1": Way((13,), "local", "shm:1", "shm:1"),
+    "shm2": Way((14,), "local", "shm:2", "shm:2"),
+    "fifo1": Way((15,), "local", "file:{folder}/fifo1", "file:{folder}/fifo1?speed=0&time=now"),
+    "fifo2": Way((16,), "local", "file:{folder}/fifo2", "file:{folder}/fifo2?speed=0&time=now"),
+}
 
 
 class Ages:
@@ -56,50 +78,36 @@ class Studio(contextlib.ExitStack):
         programs, log, folder = laboratory.programs, laboratory.log, laboratory.new_folder()
         own_machine.plug_in()
         self.callback(own_machine.unplug)
-        self.port = {way: free_port() for way in ID_OF}
-        to = {way: free_port() for way in ID_OF}
-        lens = f"lens={laboratory.lens}"
-        for fifo in ("fifo1", "fifo2"):
-            os.mkfifo(folder / fifo)
-        group = "udp://239.9.9.9:7000?interface=" + own_machine.INTERFACE
-        # Where a relay writes, and where a node reads.
-        self._sinks = {
-            "binary": f"udp://127.0.0.1:{to['binary']}?binary=1", "multicast": group,
-            "opentrackio": f"opentrackio://127.0.0.1:{to['opentrackio']}?encoding=cbor",
-            "freed": f"freed://127.0.0.1:{to['freed']}?{lens}", "shm1": "shm:1", "shm2": "shm:2",
-            "fifo1": f"file:{folder}/fifo1", "fifo2": f"file:{folder}/fifo2"}
-        sources = {
-            "ascii": f"udp://127.0.0.1:{self.port['ascii']}", "binary": f"udp://127.0.0.1:{to['binary']}",
-            "multicast": group, "opentrackio": f"opentrackio://127.0.0.1:{to['opentrackio']}",
-            "freed": f"freed://127.0.0.1:{to['freed']}?{lens}", "shm1": "shm:1", "shm2": "shm:2",
-            "fifo1": f"file:{folder}/fifo1?speed=0&time=now", "fifo2": f"file:{folder}/fifo2?speed=0&time=now"}
-        cameras = {way: {f"camera{number}": {"id": number, "source": sources[way]} for number in ID_OF[way]} for way in ID_OF}
-        network = ("ascii", "binary", "multicast", "opentrackio", "freed")
-        self.nodes = {
-            "network": self.node("network/trk_to_ros", [cameras[way] for way in network]),
-            "local": self.node("local/trk_to_ros", [cameras[way] for way in ID_OF if way not in network])}
-        out, back = free_port(), Arrivals(1)
+        os.mkfifo(folder / "fifo1")
+        os.mkfifo(folder / "fifo2")
+        self.entrance, self._sinks = {}, {}
+        cameras, targets = {"network": {}, "local": {}}, []
+        self.ages, self.arrivals, self._listeners = Ages(), {}, []
+        for name, way in WAYS.items():
+            filled_in = {"port": free_port(), "lens": laboratory.lens, "folder": folder}
+            self.entrance[name] = free_port() if way.sink else filled_in["port"]
+            self._sinks[name] = way.sink.format(**filled_in)
+            for number in way.cameras:
+                camera = f"camera{number}"
+                cameras[way.node][camera] = {"id": number, "source": way.source.format(**filled_in)}
+                targets.append(f"{self.entrance[name]}:{number}")
+                is_freed = name == "freed"
+                one = self.arrivals[camera] = Arrivals(number, not is_freed, FREE_D_ERROR if is_freed else None)
+                self._listeners.append(Listener(f"/{way.node}/{camera}/params", self._taking(one)))
+        self.nodes = {}
+        for node, its_cameras in cameras.items():
+            laboratory.set_parameters(f"/{node}/trk_to_ros", stamp="arrival", cameras=its_cameras)
+            self.nodes[node] = programs.node("trk_to_ros", f"/{node}/trk_to_ros", log(node))
+        out, self.arrivals["back"] = free_port(), Arrivals(1)
         laboratory.set_parameters("/network/camera1/ros_to_trk", sinks=[f"udp://127.0.0.1:{out}", "shm:3"])
-        self.nodes["out"] = programs.node("ros_to_trk", "/network/camera1/ros_to_trk", log("ros_to_trk"))
-        self.nodes["dump"] = programs.dump(f"udp://127.0.0.1:{out}", back, log("dump"))
-        self.ages, self.arrivals, self._listeners = Ages(), {"back": back}, []
-        for number in range(1, 17):
-            is_freed = number in ID_OF["freed"]
-            one = Arrivals(number, not is_freed, FREE_D_ERROR if is_freed else None)
-            self.arrivals[f"camera{number}"] = one
-            self._listeners.append(Listener(f"/{'network' if number <= 12 else 'local'}/camera{number}/params",
-                                            self._taking(one)))
+        self.nodes["out"] = programs.node("ros_to_trk", "/network/camera1/ros_to_trk", log("out"))
+        self.nodes["dump"] = programs.dump(f"udp://127.0.0.1:{out}", self.arrivals["back"], log("dump"))
         self.relays = {}
-        for way in self._sinks:
-            self.start_relay(way)
-        targets = [f"{self.port[way]}:{number}" for way, numbers in ID_OF.items() for number in numbers]
+        for name, sink in self._sinks.items():
+            if sink:
+                self.start_relay(name)
         self._sent = []
         self.tracker = programs.tracker(RATE, 1, targets, log("tracker"), self._sent.append)
-
-    def node(self, name, cameras):
-        self.laboratory.set_parameters("/" + name, stamp="arrival",
-                                       cameras={key: value for some in cameras for key, value in some.items()})
-        return self.laboratory.programs.node("trk_to_ros", "/" + name, self.laboratory.log("trk_to_ros"))
 
     def _taking(self, arrivals):
         def take(camera, counter, found, stamp):
@@ -108,7 +116,7 @@ class Studio(contextlib.ExitStack):
         return take
 
     def start_relay(self, way):
-        self.relays[way] = self.laboratory.programs.relay(f"udp://127.0.0.1:{self.port[way]}", self._sinks[way],
+        self.relays[way] = self.laboratory.programs.relay(f"udp://127.0.0.1:{self.entrance[way]}", self._sinks[way],
                                                           log=self.laboratory.log(way))
 
     def counts(self):
@@ -154,9 +162,9 @@ def stop_relay(studio, rng):
 
 
 def send_rubbish(studio, rng):
-    said = []
-    studio.laboratory.programs.rubbish(studio.port["ascii"], 100000, 2, rng.randrange(1000), studio.laboratory.log("rubbish"),
-                                       said.append).wait()
+    laboratory, said = studio.laboratory, []
+    laboratory.programs.rubbish(studio.entrance["ascii"], 100000, 2, rng.randrange(1000), laboratory.log("rubbish"),
+                                said.append).wait()
     return f"{said[0].split()[0]} datagrams of rubbish"
 
 
@@ -169,7 +177,7 @@ def recreate_interface(_, rng):
 
 def second_sender(studio, rng):
     from trackers import Tracker
-    tracker = Tracker([(studio.port["ascii"], rng.choice(ID_OF["ascii"]))], RATE, 2)
+    tracker = Tracker([(studio.entrance["ascii"], rng.choice(WAYS["ascii"].cameras))], RATE, 2)
     time.sleep(2)
     tracker.stop()
     return "a second sender of a camera"

@@ -65,7 +65,8 @@ def stopped(rows):
 def plot(rows):
     """An SVG picture."""
     panels = [("memory (PSS)", "MiB", "pss "), ("descriptors", "", "descriptors "), ("threads", "", "threads "),
-              ("latency", "ms", "latency "), ("sets a second, of each camera", "Hz", "rate "), ("load of the machine", "", "load")]
+              ("latency", "ms", "latency "), ("sets a second, of each camera", "Hz", "rate "),
+              ("load of the machine", "", "load")]
     picture = Picture(960, 40 + 220 * len(panels), "Soak")
     last = max(1.0, rows[-1]["time"] / 60)
     step = max(1, round(last / 10))
