@@ -26,18 +26,19 @@ std::string slot_path(int slot);
 
 /// What is wrong with a slot.
 enum class SlotProblem : std::uint8_t {
-  bad_slot,    ///< not 0..61
-  no_file,     ///< no program has opened the slot
-  no_segment,  ///< the file exists, the segment does not
-  unfinished,  ///< a segment without magic and records: being created, or its creator died
-  abandoned,   ///< a reader detached from the segment, and nobody has attached since
-  foreign,     ///< a segment with the key of the slot that is not trk: `size`, and `magic` if the size was right
-  not_a_file,  ///< the name of the slot file belongs to something else
-  key_zero,    ///< ftok returns 0, which means "private" to the kernel
-  key_shared,  ///< `other_slot` has the same key
-  no_key,      ///< every new file has the key of another segment
-  exists,      ///< another program created the segment at the same moment
-  system,      ///< a system call failed: `error_number`
+  bad_slot,      ///< not 0..61
+  no_file,       ///< no program has opened the slot
+  no_segment,    ///< the file exists, the segment does not
+  unfinished,    ///< a segment without magic and records: being created, or its creator died
+  abandoned,     ///< a reader detached from the segment, and nobody has attached since
+  foreign,       ///< a segment with the key of the slot that is not trk: `size`, and `magic` if the size was right
+  not_a_file,    ///< the name of the slot file belongs to something else
+  key_zero,      ///< ftok returns 0, which means "private" to the kernel
+  key_shared,    ///< `other_slot` has the same key
+  no_key,        ///< every new file has the key of another segment
+  exists,        ///< another program created the segment at the same moment
+  file_refused,  ///< the system refused the slot file: `error_number`
+  system,        ///< a system call on the segment failed: `error_number`
 };
 
 /// Why a segment cannot be used. Cheap to copy, never allocates.

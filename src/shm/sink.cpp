@@ -32,7 +32,8 @@ Link::Options options_of(const Settings& settings) {
 }
 
 SinkFault fault_of(const SlotFault& fault) noexcept {
-  if (fault.problem == SlotProblem::system) return {SinkReason::system, {}, fault.error_number};
+  if (fault.problem == SlotProblem::file_refused || fault.problem == SlotProblem::system)
+    return {SinkReason::system, {}, fault.error_number};
   return {SinkReason::gone};
 }
 

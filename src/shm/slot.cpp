@@ -28,6 +28,8 @@ std::string hexadecimal(std::uint64_t value) {
   return text.data();
 }
 
+SlotFault file_fault(int slot) noexcept { return {SlotProblem::file_refused, slot, 0, 0, 0, errno}; }
+
 std::string describe_problem(const SlotFault& f) {
   const std::string size = std::to_string(f.size);
   switch (f.problem) {
@@ -55,6 +57,8 @@ std::string describe_problem(const SlotFault& f) {
       return "every new file in /tmp has the key of another segment";
     case SlotProblem::exists:
       return "another program creates or removes the segment at the same time";
+    case SlotProblem::file_refused:
+      return slot_path(f.slot) + ": " + std::generic_category().message(f.error_number);
     case SlotProblem::system:
       return std::generic_category().message(f.error_number);
   }
@@ -82,12 +86,12 @@ tl::expected<key_t, SlotFault> slot_key(int slot) noexcept {
   const SlotPath path(slot);
   struct stat state {};
   if (::lstat(path.c_str(), &state) != 0) {
-    return tl::unexpected(errno == ENOENT ? slot_fault(SlotProblem::no_file, slot) : system_fault(slot));
+    return tl::unexpected(errno == ENOENT ? slot_fault(SlotProblem::no_file, slot) : file_fault(slot));
   }
   if (!S_ISREG(state.st_mode)) return tl::unexpected(slot_fault(SlotProblem::not_a_file, slot));
   const key_t key = ::ftok(path.c_str(), 0);
   if (key == -1) {
-    return tl::unexpected(errno == ENOENT ? slot_fault(SlotProblem::no_file, slot) : system_fault(slot));
+    return tl::unexpected(errno == ENOENT ? slot_fault(SlotProblem::no_file, slot) : file_fault(slot));
   }
   if (key == IPC_PRIVATE) return tl::unexpected(slot_fault(SlotProblem::key_zero, slot));
   return key;
@@ -113,12 +117,12 @@ tl::expected<SpareFile, SlotFault> SpareFile::make(int slot) noexcept {
   SpareFile spare(slot);
   const int fd = ::mkostemp(spare.name_.data(), O_CLOEXEC);
   if (fd < 0) {
-    const SlotFault fault = system_fault(slot);
+    const SlotFault fault = file_fault(slot);
     spare.name_[0] = '\0';
     return tl::unexpected(fault);
   }
   const bool ready = ::fchmod(fd, file_mode) == 0;
-  const SlotFault fault = system_fault(slot);
+  const SlotFault fault = file_fault(slot);
   ::close(fd);
   if (!ready) return tl::unexpected(fault);
   return spare;
@@ -145,7 +149,7 @@ tl::expected<bool, SlotFault> make_slot_file(int slot, bool replace) noexcept {
     if (!usable) continue;
     if (replace ? spare->replace_slot_file() : spare->become_slot_file()) return true;
     if (errno == EEXIST) return false;
-    return tl::unexpected(system_fault(slot));
+    return tl::unexpected(file_fault(slot));
   }
   return tl::unexpected(slot_fault(SlotProblem::no_key, slot));
 }
