@@ -55,7 +55,7 @@ class WithoutIpv6(Machine):
         self.assert_received(IPV6_OFF, "udp://localhost:7000", "udp://localhost:7000?id=7")
 
     def test_an_address_that_is_missing_is_named(self):
-        output = self.run_on(IPV6_OFF, "\"$TRK\" dump 'udp://[::1]:7000' --seconds 0.1")
+        output = self.run_on(IPV6_OFF, "\"$TRK\" dump 'udp://[::1]:7000' --seconds 0.1", expected=3)
         self.assertIn("no interface that is up has the address ::1", output)
 
     def test_sending_says_what_the_system_refused(self):
