@@ -123,16 +123,16 @@ class Forwarder:
         if chance() < path.late:
             self._held.append([self._rng.randint(1, 5), datagram])
             return
-        if path.delay or path.jitter:
+        copies = 2 if chance() < path.twice else 1
+        if not path.delay and not path.jitter:
+            for _ in range(copies):
+                self._send(datagram)
+            return
+        # Of those that come at once after a pause none overtakes more than when they come evenly.
+        self._base = max(time.monotonic(), self._base + _SPACING)
+        for _ in range(copies):
             self._order += 1
-            # Of those that come at once after a pause none overtakes more than when they come evenly.
-            self._base = max(time.monotonic(), self._base + _SPACING)
-            due = self._base + path.delay + path.jitter * chance()
-            heapq.heappush(self._waiting, (due, self._order, datagram))
-        else:
-            self._send(datagram)
-        if chance() < path.twice:
-            self._send(datagram)
+            heapq.heappush(self._waiting, (self._base + path.delay + path.jitter * chance(), self._order, datagram))
 
     def _send_due(self):
         while self._waiting and self._waiting[0][0] <= time.monotonic():
