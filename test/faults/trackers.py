@@ -120,19 +120,20 @@ class Forwarder:
             self._socket.sendto(self._damage(datagram, self._rng), self._to)
             self.corrupted += 1
             return
-        if chance() < path.late:
-            self._held.append([self._rng.randint(1, 5), datagram])
-            return
+        behind = self._rng.randint(1, 5) if chance() < path.late else 0
         copies = 2 if chance() < path.twice else 1
-        if not path.delay and not path.jitter:
+        if path.delay or path.jitter:
+            # Of those that come at once after a pause none overtakes more than when they come evenly.
+            self._base = max(time.monotonic(), self._base + _SPACING)
+            for _ in range(copies):
+                due = self._base + path.delay + path.jitter * chance() + behind * _SPACING
+                self._order += 1
+                heapq.heappush(self._waiting, (due, self._order, datagram))
+        elif behind:
+            self._held += [[behind, datagram] for _ in range(copies)]
+        else:
             for _ in range(copies):
                 self._send(datagram)
-            return
-        # Of those that come at once after a pause none overtakes more than when they come evenly.
-        self._base = max(time.monotonic(), self._base + _SPACING)
-        for _ in range(copies):
-            self._order += 1
-            heapq.heappush(self._waiting, (self._base + path.delay + path.jitter * chance(), self._order, datagram))
 
     def _send_due(self):
         while self._waiting and self._waiting[0][0] <= time.monotonic():
