@@ -156,7 +156,13 @@ tl::expected<PartFile, SinkFault> PartFile::open(const std::string& path, const 
   const bool is_fifo = is_fifo_there(path);
   auto opened = is_fifo ? open_fifo(path) : create_locked(path + ".part", options);
   if (!opened) return tl::unexpected(opened.error());
-  return PartFile(path, options.overwrite, *std::move(opened), is_fifo);
+  PartFile file(path, options.overwrite, *std::move(opened), is_fifo);
+  // Another writer may have published this name between the first check and the lock.
+  if (const auto good = check(path, options); !good) {
+    file.discard();
+    return tl::unexpected(good.error());
+  }
+  return file;
 }
 
 tl::expected<void, SinkFault> PartFile::check(const std::string& path, const Options& options) {
