@@ -111,7 +111,9 @@ const transport::Scheme scheme{"file",
                                  auto settings = source_settings(url);
                                  if (!settings) return tl::make_unexpected(settings.error());
                                  transport::SourceEndpoint endpoint;
-                                 endpoint.place = "file:" + settings->path;
+                                 // Two slashes after the colon begin a host.
+                                 const bool needs_host = settings->path.compare(0, 2, "//") == 0;
+                                 endpoint.place = (needs_host ? "file://" : "file:") + settings->path;
                                  endpoint.can_wait = settings->speed == 0;
                                  endpoint.open = [settings = *settings](double field_rate) {
                                    return open_source(settings, field_rate);

@@ -213,6 +213,7 @@ TEST(Endpoints, OnlyATakeReadAtFullSpeedCanWait) {
 TEST(Endpoints, EqualPlacesAreThoseThatOnlyOneSourceCanRead) {
   EXPECT_EQ(parse_source("udp://:7000?allow=192.0.2.1")->place, parse_source("udp://:7000")->place);
   EXPECT_NE(parse_source("udp://:7001")->place, parse_source("udp://:7000")->place);
+  EXPECT_EQ(parse_source("file:////net/take.trk")->place, "file:////net/take.trk") << "a URL that can be read again";
   EXPECT_EQ(parse_source("shm:7")->url, "shm:7");
 }
 
