@@ -74,6 +74,8 @@ Result<Calibration> Calibrator::calibrate(const Lens& lens, const wire::CameraCo
   calibration.width = static_cast<std::uint32_t>(constants.image_width);
   calibration.height = static_cast<std::uint32_t>(constants.image_height);
   calibration.k = camera_matrix(lens, constants);
+  // An image distance of almost 0 can be 0 pixels.
+  if (!(calibration.k[0] > 0 && calibration.k[4] > 0)) return tl::unexpected(CameraReason::bad_field_of_view);
   calibration.distortion = fit_->distortion;
   calibration.distortion.d = rescaled(fit_->distortion.d, fit_->undistorted_reach, lens.image_distance);
   const auto finite = [](double value) { return std::isfinite(value); };

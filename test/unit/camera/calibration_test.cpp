@@ -204,6 +204,10 @@ TEST(Calibrator, RefusesInvalidLenses) {
   };
   EXPECT_EQ(reason(Lens{0}, hd), CameraReason::bad_field_of_view);
   EXPECT_EQ(reason(Lens{-8}, hd), CameraReason::bad_field_of_view);
+  auto wide = hd;
+  wide.chip_width = wide.fake_chip_width = wide.chip_height = wide.fake_chip_height = 1e10;
+  EXPECT_EQ(reason(Lens{std::numeric_limits<double>::denorm_min()}, wide), CameraReason::bad_field_of_view)
+      << "a focal length of 0 pixels";
   EXPECT_EQ(reason(Lens{nan}, hd), CameraReason::not_finite);
   EXPECT_EQ(reason(Lens{8, {nan, 0}}, hd), CameraReason::not_finite);
   EXPECT_EQ(reason(Lens{8, {0, 0}, nan, 0}, hd), CameraReason::not_finite);
