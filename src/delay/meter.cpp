@@ -186,6 +186,22 @@ Path Meter::tracked_path(const camera::Raster& raster) const {
   return path;
 }
 
+std::vector<const Meter::Frame*> Meter::frames_within(const Path& path, double& interval) const {
+  const std::int64_t zero = samples_.front().stamp;
+  // A few steps more than the searched delays, for slopes and parabolas, and the span that ends with a frame.
+  const double margin = most_delay_ + 4 * step;
+  std::vector<const Frame*> frames;
+  std::vector<double> intervals;
+  for (const Frame& frame : frames_) {
+    const double before = seconds(frame.before - zero), now = seconds(frame.stamp - zero);
+    if (now - before > longest_interval) continue;
+    intervals.push_back(now - before);
+    if (path.covers(before - margin - 2 * span_time, now + margin)) frames.push_back(&frame);
+  }
+  interval = median(intervals);
+  return frames;
+}
+
 Measurement Meter::measure() const {
   Measurement result;
   const auto cannot = [&](CannotTell reason) {
@@ -198,22 +214,9 @@ Measurement Meter::measure() const {
     return cannot(CannotTell::other_time);
   }
   const camera::Raster raster = camera::raster_of(*converter_.incoming());
-  const std::int64_t zero = samples_.front().stamp;
-
   const Path path = tracked_path(raster);
   result.tracking_interval = path.interval();
-
-  // A few steps more than the searched delays, for slopes and parabolas, and the span that ends with a frame.
-  const double margin = most_delay_ + 4 * step;
-  std::vector<const Frame*> frames;
-  std::vector<double> intervals;
-  for (const Frame& frame : frames_) {
-    const double before = seconds(frame.before - zero), now = seconds(frame.stamp - zero);
-    if (now - before > longest_interval) continue;
-    intervals.push_back(now - before);
-    if (path.covers(before - margin - 2 * span_time, now + margin)) frames.push_back(&frame);
-  }
-  result.frame_interval = median(intervals);
+  const std::vector<const Frame*> frames = frames_within(path, result.frame_interval);
   if (static_cast<double>(frames.size()) * result.frame_interval < least_time) return cannot(CannotTell::too_little);
   const cv::Size size = frames.front()->size;
   if (std::abs(size.width * raster.height / (size.height * raster.width) - 1) > same_shape) {

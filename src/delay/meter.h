@@ -120,6 +120,9 @@ class Meter {
                              double focal_length_scale) const;
   /// Over seconds from the first sample on, in the pixels of Speeds.
   Path tracked_path(const camera::Raster&) const;
+  /// The frames for which the path has the turns at all delays that are searched. `interval` is set to the median of
+  /// all frames, s.
+  std::vector<const Frame*> frames_within(const Path&, double& interval) const;
   void find_delay(const Comparison&, Measurement&) const;
 
   double most_delay_;
