@@ -3,161 +3,25 @@
 // records are received again automatically.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <net/if.h>
 
 #include <functional>
 #include <future>
-#include <memory>
-#include <optional>
 #include <string>
-#include <vector>
+#include <tuple>
 
-#include "network_namespace.h"
-#include "trk_bridge/endpoints/endpoints.h"
-#include "trk_bridge/transport/sink.h"
-#include "trk_bridge/transport/source.h"
-#include "udp.h"
+#include "two_machines.h"
 
 namespace trk_bridge::trk {
 namespace {
 
-using endpoints::open_sink;
-using endpoints::open_source;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-using test::NetworkNamespace;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 using transport::Event;
 using transport::Reception;
-using transport::Sink;
 using transport::SinkReason;
-using transport::Source;
-
-constexpr std::uint16_t port = 7000;  // every namespace has its own ports
-constexpr milliseconds poll_period(5);
-constexpr milliseconds longest_recovery(5000);  // on a busy machine
-
-/// A machine "near" with the sources and sinks, and a machine "far", connected by a cable from v0 to v1.
-struct Network {
-  NetworkNamespace near, far;
-
-  void plug_in(const std::string& options = "") const {
-    near.ip("link add v0 " + options + " type veth peer name v1 netns " + far.path() +
-            "\nlink set v0 addrgenmode none\nlink set v0 up");
-    far.ip(
-        "link set v1 addrgenmode none\nlink set v1 up\naddr add 10.9.0.2/24 dev v1\naddr add 192.0.2.7/32 dev v1\n"
-        "addr add fd00:9::2/64 dev v1 nodad\naddr add 2001:db8::7/128 dev v1 nodad\naddr add fe80::2/64 dev v1 nodad\n"
-        "route replace 239.0.0.0/8 dev v1\nroute replace default via 10.9.0.1");
-    add_addresses();
-  }
-  void unplug() const { near.ip("link del v0"); }
-  void clear() const {
-    const NetworkNamespace::Stay stay(near);
-    for (const std::string name : {"v0", "w0", "old0"}) {
-      if (::if_nametoindex(name.c_str()) != 0) near.ip("link del " + name);
-    }
-  }
-  void add_addresses(const std::string& interface = "v0") const {
-    near.ip("addr replace 10.9.0.1/24 broadcast + dev " + interface + "\naddr replace fd00:9::1/64 dev " + interface +
-            " nodad\naddr replace fe80::1/64 dev " + interface + " nodad\nroute replace 239.0.0.0/8 dev " + interface);
-  }
-  void remove_addresses(const std::string& interface = "v0") const { near.ip("addr flush dev " + interface); }
-};
-
-bool is_ipv6(const std::string& address) { return address.find("::") != std::string::npos; }
-
-/// Sends from the far machine to an address or group through v1.
-class FarSender {
- public:
-  FarSender(const Network& network, const std::string& to) : to_(*transport_address(to)) {
-    const NetworkNamespace::Stay stay(network.far);
-    fd_ = ::socket(to_.ss_family, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    const int index = static_cast<int>(::if_nametoindex("v1"));
-    ip_mreqn through{};
-    through.imr_ifindex = index;
-    if (to_.ss_family == AF_INET) {
-      ::setsockopt(fd_, IPPROTO_IP, IP_MULTICAST_IF, &through, sizeof through);
-    } else {
-      reinterpret_cast<sockaddr_in6&>(to_).sin6_scope_id = static_cast<unsigned>(index);
-    }
-  }
-  ~FarSender() { ::close(fd_); }
-  FarSender(const FarSender&) = delete;
-  FarSender& operator=(const FarSender&) = delete;
-
-  /// Only the receiver knows whether it arrives.
-  void send(const std::string& datagram) const {
-    (void)::sendto(fd_, datagram.data(), datagram.size(), MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to_),
-                   to_.ss_family == AF_INET ? sizeof(sockaddr_in) : sizeof(sockaddr_in6));
-  }
-
- private:
-  static std::optional<sockaddr_storage> transport_address(const std::string& address) {
-    sockaddr_storage storage{};
-    if (is_ipv6(address)) {
-      auto& to = reinterpret_cast<sockaddr_in6&>(storage);
-      to.sin6_family = AF_INET6;
-      to.sin6_port = htons(port);
-      if (::inet_pton(AF_INET6, address.c_str(), &to.sin6_addr) != 1) return {};
-    } else {
-      auto& to = reinterpret_cast<sockaddr_in&>(storage);
-      to.sin_family = AF_INET;
-      to.sin_port = htons(port);
-      if (::inet_pton(AF_INET, address.c_str(), &to.sin_addr) != 1) return {};
-    }
-    return storage;
-  }
-
-  sockaddr_storage to_;
-  int fd_;
-};
-
-const char* const ipv4_group = "239.9.9.9";
-const char* const ipv6_group = "ff15::9";
-const char* const link_group = "ff02::9:9";
-
-/// Receives on the far machine through one interface.
-class FarReceiver {
- public:
-  explicit FarReceiver(const Network& network, const std::string& interface = "v1") {
-    const NetworkNamespace::Stay stay(network.far);
-    fd_ = ::socket(AF_INET6, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    sockaddr_in6 any{};
-    any.sin6_family = AF_INET6;
-    any.sin6_port = htons(port);
-    EXPECT_EQ(::setsockopt(fd_, SOL_SOCKET, SO_BINDTODEVICE, interface.c_str(), 3), 0);
-    EXPECT_EQ(::bind(fd_, reinterpret_cast<const sockaddr*>(&any), sizeof any), 0) << std::strerror(errno);
-    for (const std::string group : {ipv4_group, ipv6_group, link_group}) {
-      group_req request{};
-      request.gr_interface = ::if_nametoindex(interface.c_str());
-      const int family = is_ipv6(group) ? AF_INET6 : AF_INET;
-      request.gr_group.ss_family = static_cast<sa_family_t>(family);
-      ::inet_pton(family, group.c_str(),
-                  family == AF_INET ? static_cast<void*>(&reinterpret_cast<sockaddr_in&>(request.gr_group).sin_addr)
-                                    : &reinterpret_cast<sockaddr_in6&>(request.gr_group).sin6_addr);
-      EXPECT_EQ(
-          ::setsockopt(fd_, family == AF_INET ? IPPROTO_IP : IPPROTO_IPV6, MCAST_JOIN_GROUP, &request, sizeof request),
-          0)
-          << group << ": " << std::strerror(errno);
-    }
-  }
-  ~FarReceiver() { ::close(fd_); }
-  FarReceiver(const FarReceiver&) = delete;
-  FarReceiver& operator=(const FarReceiver&) = delete;
-
-  bool receives(milliseconds wait) const {
-    pollfd watched{fd_, POLLIN, 0};
-    if (::poll(&watched, 1, static_cast<int>(wait.count())) != 1) return false;
-    char data[512];
-    return ::recv(fd_, data, sizeof data, 0) > 0;
-  }
-
- private:
-  int fd_;
-};
 
 /// How a source or a sink is opened.
 struct Way {
@@ -233,28 +97,6 @@ const NetworkEvent events[] = {
     {"interface_appears", false, [](const Network&) {}, [](const Network& n) { n.plug_in(); }},
 };
 
-/// Waits until `works`; returns the time that it took, none after the longest recovery.
-template <typename Works>
-std::optional<milliseconds> time_until(const Works& works) {
-  const auto begin = steady_clock::now();
-  while (steady_clock::now() - begin < longest_recovery) {
-    if (works()) return std::chrono::duration_cast<milliseconds>(steady_clock::now() - begin);
-  }
-  return {};
-}
-
-bool gets_one(Source& source, const FarSender& tracker) {
-  static std::uint64_t counter = 0;
-  tracker.send(test::datagram(test::params(++counter)));
-  Reception reception;
-  return source.receive(reception, poll_period) == Event::sample;
-}
-
-bool sends_one(Sink& sink, const FarReceiver& receiver) {
-  (void)sink.write(test::params(1));
-  return receiver.receives(poll_period);
-}
-
 /// Ends the event and waits until `works`; prints how long that took, since the first and since the last command.
 template <typename Works>
 void expect_recovery(const std::string& what, const Way& way, const std::string& happening,
@@ -268,36 +110,6 @@ void expect_recovery(const std::string& what, const Way& way, const std::string&
               happening.c_str(), static_cast<long>(recovery->count()),
               static_cast<long>((commands + *recovery).count()));
 }
-
-class NetworkTest : public testing::Test {
- protected:
-  void SetUp() override {
-    try {
-      if (!network) network.emplace();
-    } catch (const std::runtime_error& why) {
-      GTEST_SKIP() << why.what();
-    }
-  }
-  void TearDown() override {
-    if (network) network->clear();
-  }
-
-  std::unique_ptr<Source> source_at(const std::string& url) {
-    const NetworkNamespace::Stay stay(network->near);
-    return open_source(url);
-  }
-  std::unique_ptr<Sink> sink_to(const std::string& url) {
-    const NetworkNamespace::Stay stay(network->near);
-    return open_sink(url);
-  }
-  std::string waiting_for(const Source& source) {
-    const NetworkNamespace::Stay stay(network->near);
-    return source.statistics().waiting_for;
-  }
-
-  // One for all tests: creating it takes longer than most tests.
-  static inline std::optional<Network> network;
-};
 
 using Case = std::tuple<NetworkEvent, Way>;
 
@@ -474,64 +286,6 @@ TEST_F(NetworkTest, AReaderThatWaitsInTheKernelIsStoppedWhateverInterfacesDo) {
     EXPECT_EQ(event.wait_for(test::deadline), std::future_status::ready) << way.name;
     EXPECT_EQ(event.get(), Event::stopped) << way.name;
     network->unplug();
-  }
-}
-
-/// The cable from w0 to w1, whose far end has the addresses of v1.
-void plug_in_another(const Network& n) {
-  n.near.ip("link add w0 type veth peer name w1 netns " + n.far.path() +
-            "\nlink set w0 addrgenmode none\nlink set w0 up");
-  n.far.ip("link set w1 up");
-}
-
-TEST_F(NetworkTest, AnInterfaceThatTakesOverTheNameIsUsed) {
-  network->plug_in();
-  plug_in_another(*network);
-  const auto sink = sink_to("udp://239.9.9.9:7000?interface=v0");
-  const auto source = source_at("udp://239.9.9.9:7000?interface=v0");
-  const FarReceiver through_v(*network, "v1"), through_w(*network, "w1");
-  const FarSender through_v_sender(*network, ipv4_group);
-  ASSERT_TRUE(time_until([&] { return sends_one(*sink, through_v); }));
-  ASSERT_TRUE(time_until([&] { return gets_one(*source, through_v_sender); }));
-  network->near.ip(
-      "link set v0 down\nlink set v0 name old0\nlink set old0 up\nlink set w0 down\nlink set w0 name v0\n"
-      "link set v0 up\naddr add 10.9.1.1/24 dev v0");
-  EXPECT_TRUE(time_until([&] { return sends_one(*sink, through_w); }));
-  while (through_v.receives(milliseconds(0))) {
-  }
-  EXPECT_FALSE(sends_one(*sink, through_v));
-  EXPECT_TRUE(time_until([&] { return !gets_one(*source, through_v_sender); })) << "it has left the old one";
-}
-
-TEST_F(NetworkTest, AnAddressThatMovesIsFollowed) {
-  network->plug_in();
-  plug_in_another(*network);
-  const auto sink = sink_to("udp://239.9.9.9:7000?interface=10.9.0.1");
-  const FarReceiver through_v(*network, "v1"), through_w(*network, "w1");
-  ASSERT_TRUE(time_until([&] { return sends_one(*sink, through_v); }));
-  network->remove_addresses();
-  network->add_addresses("w0");
-  EXPECT_TRUE(time_until([&] { return sends_one(*sink, through_w); }));
-}
-
-TEST_F(NetworkTest, ManyInterfacesThatAppearAndDisappearLoseNoRecord) {
-  network->plug_in();
-  const auto source = source_at("udp://239.9.9.9:7000");
-  const auto sink = sink_to("udp://239.9.9.9:7000?interface=v0");
-  std::uint64_t counter = 0;
-  for (int round = 0; round < 20; ++round) {
-    std::string lines;
-    for (int i = 0; i < 10; ++i) {
-      const std::string name = "x" + std::to_string(i);
-      lines += "link add " + name + " type veth peer name y" + std::to_string(i) + "\nlink set " + name +
-               " up\naddr add 10.8." + std::to_string(i) + ".1/24 dev " + name + "\n";
-    }
-    for (int i = 0; i < 10; ++i) lines += "link del x" + std::to_string(i) + "\n";
-    network->near.ip(lines);
-    for (int i = 0; i < 10; ++i) {
-      ASSERT_TRUE(sink->write(test::params(++counter)));
-      ASSERT_EQ(test::next_counter(*source), counter) << "the group is looped back to this machine";
-    }
   }
 }
 
