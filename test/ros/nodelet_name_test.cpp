@@ -17,16 +17,16 @@ using std::chrono::milliseconds;
 
 TEST(NodeletName, WaitsUntilTheNameIsFree) {
   auto before = std::make_unique<NodeletName>("/crane1/trk_to_ros");
-  std::atomic<bool> is_held = false;
+  std::atomic<bool> is_loading = false, has_ended = false;
   std::thread loading([&] {
+    is_loading = true;
     const NodeletName after("/crane1/trk_to_ros");
-    is_held = true;
+    EXPECT_TRUE(has_ended) << "two of one name";
   });
-  std::this_thread::sleep_for(milliseconds(50));
-  EXPECT_FALSE(is_held);
+  while (!is_loading) std::this_thread::yield();
+  has_ended = true;
   before.reset();
   loading.join();
-  EXPECT_TRUE(is_held);
 }
 
 TEST(NodeletName, OtherNamesDoNotWait) {
