@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "c_records.h"
 #include "free_slot.h"
 #include "fuzz.h"
 #include "reserved_port.h"
@@ -24,6 +25,7 @@ namespace {
 using namespace trk_bridge;
 using test::claim;
 using test::Input;
+using test::text_of;
 
 enum class Kind : std::uint8_t { net_reader, net_writer, memory, playback, recording };
 
@@ -37,23 +39,6 @@ struct Handle {
 template <typename Value>
 Value* or_null(Input& input, Value& value) {
   return input.below(16) == 0 ? nullptr : &value;
-}
-
-trkCameraParams good_params(unsigned long counter) {
-  trkCameraParams p{};
-  p.format = trkEuler;
-  p.t.e = {1, 2, 1.5, 30, -5, 0.25};
-  p.fov = 20;
-  p.counter = counter;
-  return p;
-}
-trkCameraConstants good_constants() {
-  trkCameraConstants c{};
-  c.imageWidth = 720;
-  c.imageHeight = 576;
-  c.chipWidth = c.fakeChipWidth = 8.8;
-  c.chipHeight = c.fakeChipHeight = 6.6;
-  return c;
 }
 
 bool is_finite(const trkCameraConstants& c) {
@@ -70,19 +55,6 @@ bool is_finite(const trkCameraParams& p) {
 bool is_writable(const trkCameraConstants& c) { return is_finite(c); }
 bool is_writable(const trkCameraParams& p) {
   return is_finite(p) && (p.format & ~0x3ffU) == 0 && (p.format & (trkVertical | trkDiagonal)) != 0x060;
-}
-
-std::string text_of(const trkCameraParams& params) {
-  std::vector<char> buffer(trkStringSize);
-  const int length = trkParamsToString(&params, buffer.data());
-  claim(static_cast<std::size_t>(length) == std::strlen(buffer.data()), "a text of another length");
-  return buffer.data();
-}
-std::string text_of(const trkCameraConstants& constants) {
-  std::vector<char> buffer(trkStringSize);
-  const int length = trkConstantsToString(&constants, buffer.data());
-  claim(static_cast<std::size_t>(length) == std::strlen(buffer.data()), "a text of another length");
-  return buffer.data();
 }
 
 class Program {
@@ -167,9 +139,9 @@ class Program {
     trkHandle handle = nullptr;
     trkHandle* const into = or_null(input_, handle);
     const trkError got = trkMemOpen(slot, into);
-    const bool is_sound = slot == slot_.number() && into != nullptr;
-    opened(Kind::memory, got, is_sound, handle);
-    claim(got == trkOK || !is_sound, "a slot that cannot be opened");
+    const bool is_valid = slot == slot_.number() && into != nullptr;
+    opened(Kind::memory, got, is_valid, handle);
+    claim(got == trkOK || !is_valid, "a slot that cannot be opened");
   }
 
   std::string any_path() {
@@ -256,7 +228,7 @@ class Program {
   }
 
   trkCameraParams any_params() {
-    trkCameraParams params = good_params(input_.number<std::uint8_t>());
+    trkCameraParams params = test::params_in_c(input_.number<std::uint8_t>());
     switch (input_.below(4)) {
       case 0:
         params.format = input_.number<std::uint32_t>();
@@ -276,7 +248,7 @@ class Program {
     return params;
   }
   trkCameraConstants any_constants() {
-    trkCameraConstants constants = good_constants();
+    trkCameraConstants constants = test::constants_in_c;
     if (input_.flag()) return constants;
     const std::string_view bytes = input_.bytes(sizeof constants);
     std::memcpy(&constants, bytes.data(), bytes.size());
@@ -305,7 +277,7 @@ class Program {
     if (!is_writable(*record)) {
       claim(got == trkFailed, "an invalid record was written");
     } else if (kind == Kind::memory) {
-      claim(got == trkOK, "a sound record that is not written");
+      claim(got == trkOK, "a valid record that is not written");
     }
   }
 
@@ -411,6 +383,9 @@ class Program {
             "other constants of the same text");
     }
     std::vector<char> words(trkStringSize);
+    claim(trkParamsToString(&params, words.data()) == static_cast<int>(std::strlen(words.data())), "a wrong length");
+    claim(trkConstantsToString(&constants, words.data()) == static_cast<int>(std::strlen(words.data())),
+          "a wrong length");
     if (trkStringToFormat(given, or_null(input_, format)) != 0) {
       unsigned again = 0;
       claim(trkFormatToString(format, words.data()) == static_cast<int>(std::strlen(words.data())), "a wrong length");
@@ -425,8 +400,8 @@ class Program {
   void finish() {
     for (Handle& one : handles_) {
       if (!one.is_open) continue;
-      const trkCameraParams params = good_params(1);
-      const trkCameraConstants constants = good_constants();
+      const trkCameraParams params = test::params_in_c(1);
+      const trkCameraConstants constants = test::constants_in_c;
       trkCameraParams read{};
       switch (one.kind) {
         case Kind::net_reader:

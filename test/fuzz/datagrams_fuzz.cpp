@@ -57,7 +57,7 @@ void claim_finite(const Record& record) {
   claim(test::all_finite(record), "a number is not finite");
 }
 
-void claim_sound(const Sample& sample) {
+void claim_valid(const Sample& sample) {
   claim(!std::string_view(sample.origin).empty(), "a sample without an origin");
   std::visit([](const auto& record) { claim_finite(record); }, sample.record);
   if (!sample.time_code) return;
@@ -76,7 +76,7 @@ void claim_trk_round_trip(const Record& record) {
     trk::DatagramEncoder encoder(form);
     if (!encoder.begin(record)) {
       claim(!encoder.next(), "a datagram of a record that was refused");
-      claim(form.layout.abi == wire::Abi::llp64, "a sound record that is refused");
+      claim(form.layout.abi == wire::Abi::llp64, "a valid record that is refused");
       continue;
     }
     const auto datagram = encoder.next();
@@ -139,7 +139,7 @@ void decode(std::string_view datagram, const Sender& sender, Decoder& decoder, D
       continue;
     }
     if (alone != nullptr) claim(same(sample, other), "another sample because of another sender");
-    claim_sound(sample);
+    claim_valid(sample);
     claim_round_trip(sample);
   }
   claim(decoder.next(sample, fault) == Decoder::Next::none, "more behind the end");

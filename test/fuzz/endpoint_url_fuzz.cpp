@@ -92,7 +92,7 @@ void claim_options(const Url& url, Direction direction) {
     return;
   }
   Url alone{url.scheme, url.place, {}};
-  const bool place_is_sound = verdict(alone, direction).empty();
+  const bool place_is_valid = verdict(alone, direction).empty();
   auto known = (*scheme)->options(direction);
   if (direction == Direction::write) {
     known.insert(known.end(), transport::form_options.begin(), transport::form_options.end());
@@ -103,10 +103,10 @@ void claim_options(const Url& url, Direction direction) {
     const bool is_known =
         std::any_of(known.begin(), known.end(), [&](const auto& one) { return one.key == option.key; });
     if (!is_known) claim(!error.empty(), "an unknown option that is accepted: " + option.key);
-    if (place_is_sound && !error.empty()) claim(names_option(error, alone.options), "names no option: " + error);
+    if (place_is_valid && !error.empty()) claim(names_option(error, alone.options), "names no option: " + error);
   }
   const std::string error = verdict(url, direction);
-  if (place_is_sound && !error.empty()) claim(names_option(error, url.options), "names no option of it: " + error);
+  if (place_is_valid && !error.empty()) claim(names_option(error, url.options), "names no option of it: " + error);
 }
 
 /// The place of a source is a URL of the same place where its name has nothing that is written as %XX.

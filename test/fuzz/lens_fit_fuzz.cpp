@@ -23,21 +23,21 @@ using test::Input;
 /// Of a camera that could exist, or any number at all.
 class Numbers {
  public:
-  explicit Numbers(Input& input) : input_(input), are_sound_(input.below(4) != 0) {}
+  explicit Numbers(Input& input) : input_(input), are_valid_(input.below(4) != 0) {}
 
-  bool are_sound() const { return are_sound_; }
+  bool are_valid() const { return are_valid_; }
   double between(double low, double high) {
-    if (!are_sound_) return input_.number<double>();
+    if (!are_valid_) return input_.number<double>();
     return low + (high - low) * input_.number<std::uint16_t>() / 65535;
   }
   std::int32_t whole(std::int32_t low, std::int32_t high) {
-    if (!are_sound_) return input_.number<std::int32_t>();
+    if (!are_valid_) return input_.number<std::int32_t>();
     return low + input_.number<std::uint16_t>() % (high - low + 1);
   }
 
  private:
   Input& input_;
-  bool are_sound_;
+  bool are_valid_;
 };
 
 wire::CameraConstants constants_of(Numbers& numbers) {
@@ -119,7 +119,7 @@ void claim_calibration(Input& input) {
   info.k = calibration->k;
   claim_info(info, constants);
   const auto fitted = bridge::fit_lens(info, constants);
-  if (!numbers.are_sound() || !fitted) return;
+  if (!numbers.are_valid() || !fitted) return;
   const double worst = test::worst_pixel(fitted->lens, lens, constants);
   const double allowed = 0.05 + 3 * (calibration->distortion.residual + fitted->residual);
   claim(worst <= allowed, "another lens: " + std::to_string(worst) + " pixels, allowed are " + std::to_string(allowed));
@@ -176,7 +176,7 @@ void claim_formats(Input& input) {
     claim(!camera::describe(params.error()).empty(), "refused without a reason");
     return;
   }
-  if (!test::all_finite(*params)) return claim(!numbers.are_sound(), "parameters that are not finite");
+  if (!test::all_finite(*params)) return claim(!numbers.are_valid(), "parameters that are not finite");
   const auto converted = there.convert(*params);
   if (!converted.params) {
     claim(!camera::describe(converted.params.error()).empty(), "refused without a reason");
@@ -184,7 +184,7 @@ void claim_formats(Input& input) {
   }
   claim(test::all_finite(*converted.params), "a number is not finite");
   const auto back = camera::decode(*converted.params, there.outgoing());
-  if (!numbers.are_sound()) return;
+  if (!numbers.are_valid()) return;
   claim(back.has_value(), "parameters that cannot be read");
   claim(back->pose.isApprox(camera.pose, 1e-9), "another pose");
   const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-7 * (1 + std::abs(b)); };

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-// Any text as a lens table, and lenses at any counts of one that is sound.
+// Any text as a lens table, and the lenses of a valid one at any counts.
 #include <cmath>
 #include <cstdlib>
 #include <string>

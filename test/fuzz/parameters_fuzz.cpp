@@ -126,7 +126,7 @@ XmlRpcValue any_value(Input& input, int depth) {
   }
 }
 
-void claim_sound(const ros1::TrkToRosParameters& read) {
+void claim_valid(const ros1::TrkToRosParameters& read) {
   claim(!read.cameras.empty(), "no cameras");
   claim(!read.field_rate || ros1::field_rate_range.contains(*read.field_rate), "a field rate out of its range");
   claim(read.queue_size >= 0, "a queue of less than nothing");
@@ -137,7 +137,7 @@ void claim_sound(const ros1::TrkToRosParameters& read) {
   }
 }
 
-void claim_sound(const ros1::RosToTrkParameters& read) {
+void claim_valid(const ros1::RosToTrkParameters& read) {
   claim(!read.sinks.empty() && read.form.format && wire::is_writable(*read.form.format), "nothing to send to, or as");
   claim(!read.rate || (std::isfinite(*read.rate) && *read.rate > 0), "a rate that is none");
   claim(read.queue_size >= 0, "a queue of less than nothing");
@@ -145,16 +145,16 @@ void claim_sound(const ros1::RosToTrkParameters& read) {
   if (read.constants) claim(camera::check(*read.constants).has_value(), "constants of no picture");
 }
 
-void claim_sound(const ros1::DelayMeterParameters& read) {
+void claim_valid(const ros1::DelayMeterParameters& read) {
   claim(std::isfinite(read.window) && read.window > 0 && std::isfinite(read.most_delay), "a time that is none");
   if (read.constants) claim(camera::check(*read.constants).has_value(), "constants of no picture");
 }
 
-/// The errors; empty when all is sound.
+/// The errors; empty if all is valid.
 template <typename Read>
 std::string errors_of(const Read& read, const XmlRpcValue& tree) {
   try {
-    claim_sound(read(tree, "crane1"));
+    claim_valid(read(tree, "crane1"));
     return {};
   } catch (const ros1::ParameterError& error) {
     const std::string text = error.what();
