@@ -1,17 +1,16 @@
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-"""What /diagnostics must show of sets that came."""
+"""What /diagnostics must show for the sets that were received."""
 
 from dataclasses import dataclass
 
-# Keys of /diagnostics for what Counts has, and for what is malformed.
+# Keys of /diagnostics for the members of Counts, and for malformed records.
 SHOWN = {"received": "received", "lost": "lost", "duplicate": "duplicate", "late": "out of order",
           "restarts": "restarts", "malformed": "malformed"}
 
 
 @dataclass
 class Counts:
-    """What /diagnostics must show for sets that came in this order: [(run, number), …] of one sender at a time, whose next
-    run is a restart."""
+    """What /diagnostics must show for sets in this order of arrival: [(run, number), …]. A new run is a restart."""
     received: int = 0
     lost: int = 0
     duplicate: int = 0
@@ -20,20 +19,20 @@ class Counts:
 
     @classmethod
     def of(cls, emitted):
-        counts, came, newest = cls(), set(), None
+        counts, received, newest = cls(), set(), None
         for run, number in emitted:
             if newest is None or run != newest[0]:
                 counts.restarts += newest is not None
                 counts.received += 1
-                came, first, newest = {number}, number, (run, number)
+                received, first, newest = {number}, number, (run, number)
             elif number > newest[1]:
                 counts.received += 1
                 counts.lost += number - newest[1] - 1
                 newest = (run, number)
-            elif number in came:
+            elif number in received:
                 counts.duplicate += 1
             else:
                 counts.late += 1
                 counts.lost -= number > first
-            came.add(number)
+            received.add(number)
         return counts

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-"""Makes faults on purpose, on a machine of its own, and judges what arrives (doc/faults.md)."""
+"""Makes faults on purpose, in a sandbox, and checks what arrives (doc/faults.md)."""
 
 import argparse
 import pathlib
@@ -10,34 +10,29 @@ import tempfile
 import time
 import traceback
 
-import own_machine
+import sandbox
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-
-
-def table(rows):
-    """Lines with columns that are aligned."""
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    return ["  ".join(text.ljust(width) if column in (0, len(row) - 1) else text.rjust(width)
-                      for column, (text, width) in enumerate(zip(row, widths))).rstrip() for row in rows]
+sys.path.insert(0, str(ROOT / "test/support"))
+from text_table import aligned  # noqa: E402
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    own_machine.add_build_arguments(parser, ROOT / "build")
+    sandbox.add_build_arguments(parser, ROOT / "build")
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--short", action="store_true", help="at most two minutes; the default")
     form.add_argument("--long", action="store_true", help="with 1,000 kills")
-    parser.add_argument("--seed", type=int, help="of what is random; default: another one each time")
+    parser.add_argument("--seed", type=int, help="of all random values; default: a new one each time")
     parser.add_argument("--list", action="store_true", help="list the cases")
     parser.add_argument("--recovery", type=float, help="seconds that a recovery may take; default: 2 with --long, else 120")
     parser.add_argument("--kills", type=int, help="kill -9 of all cases together; default: 1000 with --long, else 20")
     parser.add_argument("cases", nargs="*", metavar="CASE", help="default: all")
     options = parser.parse_args()
-    own_machine.enter(options, ROOT)
-    # With what ROS is imported, which --help does without.
+    sandbox.enter(options, ROOT)
+    # They import ROS, which --help does not need.
     from cases import CASES
-    from laboratory import Laboratory, Result
+    from testbed import Testbed, Result
 
     if options.list:
         for name, function in CASES.items():
@@ -53,15 +48,15 @@ def main():
     rows = [("case", "sent", "arrived", "lost", "duplicates", "recovery", "result")]
     failed = 0
     with tempfile.TemporaryDirectory() as folder:
-        laboratory = Laboratory(options.devel, ROOT, pathlib.Path(folder), options.long,
+        testbed = Testbed(options.devel, ROOT, pathlib.Path(folder), options.long,
                                 options.kills or (1000 if options.long else 20))
         for name in options.cases or CASES:
-            laboratory.rng = random.Random(f"{seed} {name}")
+            testbed.rng = random.Random(f"{seed} {name}")
             left = []
             try:
-                with laboratory.leaving_nothing(left):
-                    result = CASES[name](laboratory)
-            except Exception as error:  # the other cases go on
+                with testbed.leaving_nothing(left):
+                    result = CASES[name](testbed)
+            except Exception as error:  # the other cases continue
                 traceback.print_exc()
                 result = Result(wrong=[str(error)])
             result.wrong += left
@@ -73,7 +68,7 @@ def main():
                          "" if result.recovery is None else f"{result.recovery:.2f} s",
                          "; ".join(result.wrong) or "; ".join(filter(None, ["ok", result.note]))))
             print(f"{name}: {rows[-1][-1]}", file=sys.stderr, flush=True)
-    print("\n".join(table(rows)))
+    print("\n".join(aligned(rows, left=(0, -1))))
     print(f"{time.monotonic() - begin:.0f} s")
     print(f"{len(rows) - 1 - failed} passed, {failed} failed")
     return 1 if failed else 0

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-"""Whether the judges of faults and soak find what is wrong."""
+"""Tests of the checks that faults and soak use: they find what is wrong."""
 
 import random
 import unittest

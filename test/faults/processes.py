@@ -12,11 +12,11 @@ import threading
 import time
 
 _TRACKERS = pathlib.Path(__file__).resolve().parent / "trackers.py"
-PATIENCE = 300  # s, for what takes a moment, on a machine that is busy with other things
+PATIENCE = 300  # s; what is waited for takes a moment, but the machine may be busy with other work
 
 
 class Failure(Exception):
-    """What a case has found, for a person."""
+    """A fault that a case has found."""
 
 
 def wait_for(condition, what, seconds=PATIENCE):
@@ -33,11 +33,24 @@ def wait_for(condition, what, seconds=PATIENCE):
         waited, last = waited + min(now - last, 0.5), now
 
 
+def wait_until_still(value, seconds=0.5):
+    """Waits until `value()` has not changed for this time."""
+    last, since = value(), time.monotonic()
+
+    def is_still():
+        nonlocal last, since
+        now = value()
+        if now != last:
+            last, since = now, time.monotonic()
+        return time.monotonic() - since > seconds
+    wait_for(is_still, f"nothing changes for {seconds} s")
+
+
 _given_ports = set()
 
 
 def free_port(kind=socket.SOCK_DGRAM):
-    """One that was not given before. Nobody else is on this machine."""
+    """A port that this function has not returned before. Nothing else in the sandbox uses ports."""
     while True:
         with socket.socket(socket.AF_INET, kind) as one:
             one.bind(("127.0.0.1", 0))
@@ -64,7 +77,7 @@ class Process:
 
     def _read(self, on_line):
         for line in self._popen.stdout:
-            # A program that is killed can leave a line that is not whole.
+            # A killed program can leave an incomplete line.
             if line.endswith(b"\n"):
                 on_line(line.decode())
 
@@ -73,12 +86,12 @@ class Process:
         return self._popen.poll()
 
     def kill(self):
-        """As kill -9."""
+        """Like kill -9."""
         self._popen.kill()
         self._wait()
 
     def end(self, seconds=PATIENCE):
-        """As Ctrl-C. It must end well."""
+        """Like Ctrl-C. The exit code."""
         with contextlib.suppress(ProcessLookupError):
             self._popen.send_signal(signal.SIGINT)
         try:
@@ -93,7 +106,7 @@ class Process:
         return self.code()
 
     def pause(self, seconds):
-        """It stands still for so long."""
+        """Stops the process for this time."""
         self._popen.send_signal(signal.SIGSTOP)
         time.sleep(seconds)
         self._popen.send_signal(signal.SIGCONT)
@@ -106,7 +119,7 @@ class Process:
         return {"rss": rss, "pss": pss, "descriptors": len(list((folder / "fd").iterdir())),
                 "threads": len(list((folder / "task").iterdir()))}
 
-    def said(self):
+    def output(self):
         return self.log.read_text(encoding="utf-8", errors="replace")
 
     def _wait(self, seconds=PATIENCE):
@@ -134,7 +147,7 @@ class Programs:
         return self.process("trk", "relay", source, *sinks, log=log)
 
     def dump(self, source, arrivals, log):
-        """Gives all sets that come to `arrivals`."""
+        """Adds all sets that are received to `arrivals`."""
         def on_line(line):
             record = json.loads(line)
             if record["type"] == "params":
@@ -143,13 +156,13 @@ class Programs:
 
     @staticmethod
     def tracker(rate, run, targets, log, on_line):
-        """As a process of its own; `targets`: PORT:ID. At its end it prints how many sets it sent of each."""
+        """A separate process; `targets`: PORT:ID. At its end it prints how many sets it sent of each camera."""
         return Process([sys.executable, "-B", _TRACKERS, "tracker", rate, run, *targets], log, on_line)
 
     @staticmethod
-    def rubbish(port, rate, seconds, seed, log, on_line):
-        """Prints how many datagrams it sent, and in how many seconds."""
-        return Process([sys.executable, "-B", _TRACKERS, "rubbish", port, rate, seconds, seed], log, on_line)
+    def flood(port, rate, seconds, seed, log, on_line):
+        """A separate process. At its end it prints how many datagrams it sent, and in how many seconds."""
+        return Process([sys.executable, "-B", _TRACKERS, "flood", port, rate, seconds, seed], log, on_line)
 
     def node(self, name, node_name, log):
         namespace, _, base = node_name.rpartition("/")

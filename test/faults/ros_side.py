@@ -1,5 +1,5 @@
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-"""What a test has of ROS: a master, a subscriber of everything, and nodes."""
+"""The ROS side of a test: a master, subscribers, and a simulated crane."""
 
 import os
 import pathlib
@@ -24,7 +24,7 @@ _MASTER = pathlib.Path(__file__).resolve().parent.parent / "ros" / "master.py"
 
 
 class Master:
-    """A master at an address that stays when it is started again."""
+    """A master whose address stays the same after a restart."""
 
     def __init__(self, folder):
         self._log = folder / "master.log"
@@ -48,7 +48,7 @@ class Master:
 
 
 class Diagnostics:
-    """The newest values of every status on /diagnostics."""
+    """The newest values of each status on /diagnostics."""
 
     def __init__(self):
         self._newest = {}
@@ -58,12 +58,12 @@ class Diagnostics:
     def _on_message(self, message):
         with self._lock:
             for status in message.status:
-                # Without values a node has not begun.
+                # A status without values is sent before the node has started.
                 if status.values:
                     self._newest[status.name] = (status.message, {pair.key: pair.value for pair in status.values})
 
     def of(self, name):
-        """(message, values) of the newest status with this name; none before it came."""
+        """(message, values) of the newest status with this name; None before the first."""
         with self._lock:
             return self._newest.get(name.lstrip("/"))
 
@@ -89,7 +89,7 @@ class Diagnostics:
 class Listener:
     """A subscriber of the params of one camera: `on_params(id, counter, values in the order of sets.FIELDS, stamp in s)`.
 
-    The bytes are read here: what rospy does with messages costs more than a machine with 16 cameras has.
+    It reads the bytes itself: rospy's own decoding is too slow for 16 cameras.
     """
 
     _HEADER = struct.Struct("<4x3I")  # seq, stamp, and the length of frame_id
@@ -114,8 +114,8 @@ class Listener:
 
 
 class Crane:
-    """A camera on tf, with its CameraInfo, at 50 Hz. Its x is one more each time (m), its clock is `offset` seconds off. If it
-    is simulated, /clock shows that clock as well, and nodes that start meanwhile use it."""
+    """A camera on tf, with its CameraInfo, at 50 Hz. Its x increases by 1 m each time; its clock is off by `offset`
+    seconds. If simulated, this clock is also published on /clock, and nodes that start now use it."""
 
     def __init__(self, name, is_simulated):
         self.offset, self.at = 0, 0
@@ -133,7 +133,7 @@ class Crane:
         self._thread.start()
 
     def stop(self):
-        """How many poses were published."""
+        """Ends it. Returns how many poses were published."""
         self._ends.set()
         self._thread.join()
         rospy.set_param("/use_sim_time", False)

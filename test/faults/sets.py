@@ -1,16 +1,16 @@
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-"""Camera sets that can be recognised: every value is a function of the camera's id, the run of its sender and the number
-of the set, so that a receiver knows of each set whether it was sent like this."""
+"""Camera sets that can be recognised: every value is a function of the id of the camera, the run of its sender and the
+number of the set, so that a receiver can check each set."""
 
 import threading
 import time
 
-FORMAT = 1  # Euler angles, all else as when no bit is set
+FORMAT = 1  # euler; all other options have their default
 FIELDS = ("x", "y", "z", "pan", "tilt", "roll", "fov", "center_x", "center_y", "k1", "k2", "focdist", "aperture")
-POSE = 6  # the first of them: what Free-D has
-# Free-D has numbers of fixed point: 1/64 mm, 1/32768 degree.
+POSE = 6  # number of the fields that Free-D has, the first ones
+# Free-D has fixed-point numbers: 1/64 mm, 1/32768 degree.
 FREE_D_ERROR = (8e-6,) * 3 + (1.6e-5,) * 3
-MOST = 100_000  # sets of a run that Free-D, which has no counter, tells apart
+MOST = 100_000  # sets of a run that can be distinguished without a counter, for Free-D
 
 
 def values(camera, run, number):
@@ -42,24 +42,24 @@ def number_of(datagram):
 
 
 class Arrivals:
-    """What arrived of a camera, judged at once. Any thread may call it.
+    """What arrived of a camera, checked at once. Any thread may call it.
 
-    `wrong` has the first of what must never be: sets that were not sent like this, twice, or out of order.
+    `wrong` has the first faults: sets that differ from what was sent, arrived twice, or out of order.
     """
 
     def __init__(self, camera, has_counter=True, error=None):
         self.camera = camera
         self.count = 0
         self.runs = []  # of senders, in the order in which they were followed
-        self.newest = {}  # number by run
+        self.newest = {}  # newest number of each run
         self.wrong = []
         self.last_time = 0.0
         self._has_counter = has_counter
-        self._error = error  # allowed, for each of the first fields; None: all are exact
+        self._error = error  # allowed error of each of the first fields; None: all must be exact
         self._lock = threading.Lock()
 
     def add(self, camera, counter, found, stamp=None):
-        """`found` has the values in the order of FIELDS; the stamp is not judged."""
+        """`found` has the values in the order of FIELDS; the stamp is not checked."""
         now = time.monotonic()
         with self._lock:
             run = round(found[1] * 1000)
@@ -94,6 +94,6 @@ class Arrivals:
 
 
 def _unwrapped(number, newest):
-    """The number next to `newest`, of those that Free-D cannot tell apart."""
+    """The number nearest to `newest` among those with the same values."""
     number += newest - newest % MOST
     return number + MOST if number + MOST // 2 < newest else number

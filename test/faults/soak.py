@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-"""16 cameras at 120 Hz over all endpoints and protocols into ROS and out again, with faults from time to time. Judges what
-arrives, and whether memory, descriptors, threads and latency stay as they are (doc/faults.md)."""
+"""16 cameras at 120 Hz over all endpoints and protocols into ROS and out again, with faults from time to time. Checks what
+arrives, and that memory, descriptors, threads and latency do not grow (doc/faults.md)."""
 
 import argparse
 import contextlib
@@ -16,19 +16,22 @@ import time
 import traceback
 from dataclasses import dataclass
 
-import own_machine
+import sandbox
 import verdict
-from faults import ROOT, table
+from faults import ROOT, aligned
+from processes import free_port, wait_for, wait_until_still
+from sets import FREE_D_ERROR, Arrivals
+from trackers import Tracker
 
 RATE = 120  # Hz
 PERIOD = 10  # s, of samples
-GROUP = "udp://239.9.9.9:7000?interface=" + own_machine.INTERFACE
+GROUP = "udp://239.9.9.9:7000?interface=" + sandbox.INTERFACE
 FREE_D = "freed://127.0.0.1:{port}?lens={lens}"
 
 
 @dataclass(frozen=True)
 class Way:
-    """Into ROS. `{port}`, `{lens}` and `{folder}` in URLs are filled in."""
+    """A transport into ROS. `{port}`, `{lens}` and `{folder}` in URLs are replaced."""
     cameras: tuple  # ids
     node: str  # that reads
     sink: str  # of the relay behind the tracker; empty: there is none
@@ -49,7 +52,7 @@ WAYS = {
 
 
 class Ages:
-    """How old messages are when they arrive, s since their stamp, which is their time of receipt."""
+    """The age of messages when they arrive: s since their stamp, which is the time of receipt."""
 
     def __init__(self):
         self._ages, self._lock = [], threading.Lock()
@@ -66,25 +69,23 @@ class Ages:
 
 
 class Studio(contextlib.ExitStack):
-    """What runs: trackers, relays, nodes, and what receives."""
+    """All processes: tracker, relays, nodes and receivers."""
 
-    def __init__(self, laboratory):
+    def __init__(self, testbed):
         super().__init__()
-        from processes import free_port
-        from ros_side import Listener
-        from sets import FREE_D_ERROR, Arrivals
+        from ros_side import Listener  # needs ROS
 
-        self.laboratory = laboratory
-        programs, log, folder = laboratory.programs, laboratory.log, laboratory.new_folder()
-        own_machine.plug_in()
-        self.callback(own_machine.unplug)
+        self.testbed = testbed
+        programs, log, folder = testbed.programs, testbed.log, testbed.new_folder()
+        sandbox.add_interface()
+        self.callback(sandbox.remove_interface)
         os.mkfifo(folder / "fifo1")
         os.mkfifo(folder / "fifo2")
         self.entrance, self._sinks = {}, {}
         cameras, targets = {"network": {}, "local": {}}, []
         self.ages, self.arrivals, self._listeners = Ages(), {}, []
         for name, way in WAYS.items():
-            filled_in = {"port": free_port(), "lens": laboratory.lens, "folder": folder}
+            filled_in = {"port": free_port(), "lens": testbed.lens, "folder": folder}
             self.entrance[name] = free_port() if way.sink else filled_in["port"]
             self._sinks[name] = way.sink.format(**filled_in)
             for number in way.cameras:
@@ -96,10 +97,10 @@ class Studio(contextlib.ExitStack):
                 self._listeners.append(Listener(f"/{way.node}/{camera}/params", self._taking(one)))
         self.nodes = {}
         for node, its_cameras in cameras.items():
-            laboratory.set_parameters(f"/{node}/trk_to_ros", stamp="arrival", cameras=its_cameras)
+            testbed.set_parameters(f"/{node}/trk_to_ros", stamp="arrival", cameras=its_cameras)
             self.nodes[node] = programs.node("trk_to_ros", f"/{node}/trk_to_ros", log(node))
         out, self.arrivals["back"] = free_port(), Arrivals(1)
-        laboratory.set_parameters("/network/camera1/ros_to_trk", sinks=[f"udp://127.0.0.1:{out}", "shm:3"])
+        testbed.set_parameters("/network/camera1/ros_to_trk", sinks=[f"udp://127.0.0.1:{out}", "shm:3"])
         self.nodes["out"] = programs.node("ros_to_trk", "/network/camera1/ros_to_trk", log("out"))
         self.nodes["dump"] = programs.dump(f"udp://127.0.0.1:{out}", self.arrivals["back"], log("dump"))
         self.relays = {}
@@ -116,8 +117,8 @@ class Studio(contextlib.ExitStack):
         return take
 
     def start_relay(self, way):
-        self.relays[way] = self.laboratory.programs.relay(f"udp://127.0.0.1:{self.entrance[way]}", self._sinks[way],
-                                                          log=self.laboratory.log(way))
+        self.relays[way] = self.testbed.programs.relay(f"udp://127.0.0.1:{self.entrance[way]}", self._sinks[way],
+                                                          log=self.testbed.log(way))
 
     def counts(self):
         return {name: one.count for name, one in self.arrivals.items()}
@@ -125,13 +126,13 @@ class Studio(contextlib.ExitStack):
     def end(self):
         """In order. What is wrong."""
         self.tracker.end()
-        time.sleep(2)
+        wait_until_still(self.counts, 2)
         wrong = []
         for relay in self.relays.values():
             relay.end()  # it fails where the interface was gone
         for name, process in self.nodes.items():
             if process.end() != 0:
-                wrong.append(f"{name} ended with {process.code()}: {process.said()[-500:]}")
+                wrong.append(f"{name} ended with {process.code()}: {process.output()[-500:]}")
         for listener in self._listeners:
             listener.close()
         sent = int(self._sent[0])
@@ -147,7 +148,7 @@ class Studio(contextlib.ExitStack):
 
 
 def kill_relay(studio, rng):
-    # A take ends for its reader when its writer dies.
+    # The reader of a take ends when the writer dies.
     way = rng.choice([way for way in studio.relays if not way.startswith("fifo")])
     studio.relays[way].kill()
     time.sleep(rng.random())
@@ -158,32 +159,31 @@ def kill_relay(studio, rng):
 def stop_relay(studio, rng):
     way = rng.choice(list(studio.relays))
     studio.relays[way].pause(rng.random())
-    return f"the relay of {way} stands still for a moment"
+    return f"the relay of {way} is stopped for a moment"
 
 
-def send_rubbish(studio, rng):
-    laboratory, said = studio.laboratory, []
-    laboratory.programs.rubbish(studio.entrance["ascii"], 100000, 2, rng.randrange(1000), laboratory.log("rubbish"),
-                                said.append).wait()
-    return f"{said[0].split()[0]} datagrams of rubbish"
+def send_flood(studio, rng):
+    testbed, printed = studio.testbed, []
+    testbed.programs.flood(studio.entrance["ascii"], 100000, 2, rng.randrange(1000), testbed.log("flood"),
+                                printed.append).wait()
+    return f"{printed[0].split()[0]} random datagrams"
 
 
 def recreate_interface(_, rng):
-    own_machine.unplug()
+    sandbox.remove_interface()
     time.sleep(rng.random())
-    own_machine.plug_in()
+    sandbox.add_interface()
     return "the interface of the group is recreated"
 
 
 def second_sender(studio, rng):
-    from trackers import Tracker
     tracker = Tracker([(studio.entrance["ascii"], rng.choice(WAYS["ascii"].cameras))], RATE, 2)
     time.sleep(2)
     tracker.stop()
     return "a second sender of a camera"
 
 
-FAULTS = (kill_relay, stop_relay, send_rubbish, recreate_interface, second_sender)
+FAULTS = (kill_relay, stop_relay, send_flood, recreate_interface, second_sender)
 
 
 def disturb(studio, rng, ends, done):
@@ -196,7 +196,7 @@ def disturb(studio, rng, ends, done):
 
 
 def run(studio, minutes, rng, on_sample):
-    """Samples until the end; the faults that were done."""
+    """Samples until the end. Returns the faults that were made."""
     ends, done = threading.Event(), []
     disturber = threading.Thread(target=disturb, args=(studio, rng, ends, done), daemon=True)
     disturber.start()
@@ -209,12 +209,12 @@ def run(studio, minutes, rng, on_sample):
         row = {"time": now - begin, "load": os.getloadavg()[0]}
         for name, count in counts.items():
             row[f"rate {name}"] = (count - before[name]) / (now - last)
-        # Milliseconds. A sample without any is not the place to stop.
+        # Milliseconds. A sample without messages is judged at the end.
         row["latency median"] = 1e3 * statistics.median(ages) if ages else float("nan")
         row["latency 99 %"] = 1e3 * ages[len(ages) * 99 // 100] if ages else float("nan")
         for name, process in studio.nodes.items():
             row.update({f"{key} {name}": value for key, value in process.usage().items()})
-        # A sample in which the test itself was stopped says nothing about what it watches.
+        # If the test itself was stopped, its sample says nothing about the programs.
         if now - last < 1.5 * PERIOD:
             on_sample(row)
         last, before = now, counts
@@ -226,21 +226,20 @@ def run(studio, minutes, rng, on_sample):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("minutes", metavar="MINUTES", type=float)
-    own_machine.add_build_arguments(parser, ROOT / "build")
+    sandbox.add_build_arguments(parser, ROOT / "build")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "build/soak", help="folder of the table, CSV and plot")
     parser.add_argument("--seed", type=int, help="of the faults; default: another one each time")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    own_machine.enter(options, ROOT, options.out)
-    # With what ROS is imported, which --help does without.
-    from laboratory import Laboratory
-    from processes import wait_for
+    sandbox.enter(options, ROOT, options.out)
+    # They import ROS, which --help does not need.
+    from testbed import Testbed
 
     seed = options.seed if options.seed is not None else random.SystemRandom().randrange(1 << 32)
     print(f"seed {seed}", flush=True)
     rows = []
     with tempfile.TemporaryDirectory() as folder, (options.out / "soak.csv").open("w", encoding="utf-8") as file:
-        laboratory = Laboratory(options.devel, ROOT, pathlib.Path(folder))
+        testbed = Testbed(options.devel, ROOT, pathlib.Path(folder))
 
         def on_sample(row):
             if not rows:
@@ -249,10 +248,10 @@ def main():
             print(",".join(f"{value:.3f}" for value in row.values()), file=file, flush=True)
 
         left = []
-        with laboratory.leaving_nothing(left):
-            with Studio(laboratory) as studio:
+        with testbed.leaving_nothing(left):
+            with Studio(testbed) as studio:
                 try:
-                    wait_for(lambda: all(studio.counts().values()), f"every camera sends; now {studio.counts()}")
+                    wait_for(lambda: all(studio.counts().values()), f"every camera arrives; now {studio.counts()}")
                     done = run(studio, options.minutes, random.Random(seed), on_sample)
                     wrong, sent = studio.end()
                 finally:
@@ -264,9 +263,9 @@ def main():
     lines, is_flat = verdict.judge(rows)
     arrived = sum(studio.counts().values())
     wrong += verdict.stopped(rows)
-    summary = (f"{options.minutes:g} minutes, {len(rows)} samples, {len(done)} faults; of each of 16 cameras {sent} sets were "
-               f"sent, {arrived} arrived of all, the one that was sent out again counted twice")
-    text = "\n".join([summary, *table(lines), *(f"wrong: {one}" for one in wrong)])
+    summary = (f"{options.minutes:g} minutes, {len(rows)} samples, {len(done)} faults; {sent} sets of each of 16 cameras "
+               f"were sent; {arrived} arrived in all, with the camera that is sent out again counted twice")
+    text = "\n".join([summary, *aligned(lines, left=(0, -1)), *(f"wrong: {one}" for one in wrong)])
     (options.out / "soak.txt").write_text(text + "\n", encoding="utf-8")
     (options.out / "soak.svg").write_text(verdict.plot(rows), encoding="utf-8")
     print(text)

@@ -1,5 +1,5 @@
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-"""What sends to the programs that are tested, and what stands between: a tracker, a bad path, rubbish."""
+"""Senders to the programs that are tested, and what is between them: a tracker, a bad path, a flood of random datagrams."""
 
 import heapq
 import random
@@ -14,7 +14,7 @@ import sets
 
 
 class Tracker:
-    """Sends sets of cameras at a steady rate, as trk in datagrams, from a thread of its own. `targets`: (port of 127.0.0.1,
+    """Sends sets of cameras at a steady rate, as datagrams of trk, from its own thread. `targets`: (port of 127.0.0.1,
     id of the camera) for each; `run` is in every set."""
 
     def __init__(self, targets, rate=100, run=1):
@@ -47,17 +47,17 @@ def _send_to(out, datagram, port):
     try:
         out.sendto(datagram, ("127.0.0.1", port))
     except ConnectionRefusedError:
-        pass  # of the datagram before: nobody receives
+        pass  # the datagram before was not received
 
 
 @dataclass(frozen=True)
 class Path:
-    """What happens to parameters on their way. Shares are of 1."""
+    """What happens to parameters on their way. Shares are between 0 and 1."""
     loss: float = 0
     twice: float = 0
-    late: float = 0  # held back until up to five others have passed
+    late: float = 0  # delayed until up to five later ones have passed
     delay: float = 0  # s
-    jitter: float = 0  # s, up to so much more for each
+    jitter: float = 0  # s, at most; a random part of it is added for each
     corrupt: float = 0
 
 
@@ -65,11 +65,11 @@ _SPACING = 0.008  # s, between sets of 100 Hz that are delayed
 
 
 class Forwarder:
-    """A path between two ports of 127.0.0.1. It does what it is told to each set but the first, in a thread of its own, and
-    knows afterwards what it did."""
+    """A path between two ports of 127.0.0.1. It applies its Path to each set except the first, in its own
+    thread, and records what it did."""
 
     def __init__(self, to_port, path, rng, damage):
-        self.emitted = []  # (run, number) of the sets that were sent unharmed, in this order; None: of other protocols
+        self.emitted = []  # (run, number) of the sets that were sent unchanged, in this order; None for other protocols
         self.corrupted = 0
         self._path, self._rng, self._damage = path, rng, damage
         self._to = ("127.0.0.1", to_port)
@@ -84,7 +84,7 @@ class Forwarder:
         self._thread.start()
 
     def stop(self):
-        """Sends what it still has. Its sender must have stopped before."""
+        """Sends what is still delayed. Its sender must have ended before."""
         self._ends = True
         self._thread.join()
         self._socket.close()
@@ -123,7 +123,7 @@ class Forwarder:
         behind = self._rng.randint(1, 5) if chance() < path.late else 0
         copies = 2 if chance() < path.twice else 1
         if path.delay or path.jitter:
-            # Of those that come at once after a pause none overtakes more than when they come evenly.
+            # If sets arrive at once after a pause, they overtake no more than evenly spaced ones.
             self._base = max(time.monotonic(), self._base + _SPACING)
             for _ in range(copies):
                 due = self._base + path.delay + path.jitter * chance() + behind * _SPACING
@@ -153,7 +153,7 @@ class Forwarder:
 
 
 def damage_text(datagram, rng):
-    """So that it shows: trk has no checksum, and a number that became another one is a number."""
+    """Damages it visibly: trk has no checksum, and a changed digit would be a valid number."""
     last = datagram.rstrip(b"\0").rfind(b" ")
     way = rng.randrange(3)
     if way == 0:
@@ -163,17 +163,17 @@ def damage_text(datagram, rng):
 
 
 def damage_byte(datagram, rng):
-    """Any byte to any other: for protocols with a checksum."""
+    """Changes one byte: for protocols with a checksum."""
     at = rng.randrange(len(datagram))
     return datagram[:at] + bytes([datagram[at] ^ rng.randrange(1, 256)]) + datagram[at + 1:]
 
 
-_UDP_SEGMENT = 103  # of linux/udp.h: what is sent at once is cut into datagrams of this size
+_UDP_SEGMENT = 103  # of linux/udp.h: the kernel divides what is sent at once into datagrams of this size
 _AT_ONCE = 32
 
 
-def rubbish(port, rate, seconds, seed):
-    """Sends datagrams that are no records, as many a second, and returns how many it sent, and for how long (s)."""
+def flood(port, rate, seconds, seed):
+    """Sends `rate` datagrams per second that are not records. Returns how many it sent, and for how long (s)."""
     rng = random.Random(seed)
     beginnings = [b"", b"DMC01\0PA", b"DMC01\0PB", b"DMC01\0CA", b"DMC01\0XX", b"OTrk", b"\xd1"]
     senders = []
@@ -188,7 +188,7 @@ def rubbish(port, rate, seconds, seed):
         now = time.monotonic() - begin
         if now >= seconds:
             return count, now
-        # After a longer pause it does not catch up.
+        # It does not catch up after a long pause.
         for _ in range(min(rate // 20, int(now * rate) - count) // _AT_ONCE):
             out, datagrams = rng.choice(senders)
             out.send(datagrams)
@@ -197,9 +197,9 @@ def rubbish(port, rate, seconds, seed):
 
 
 def main(what, *words):
-    """As a process of its own: tracker RATE RUN PORT:ID… until SIGINT, or rubbish PORT RATE SECONDS SEED."""
-    if what == "rubbish":
-        print(*rubbish(*map(int, words)))
+    """As a separate process: tracker RATE RUN PORT:ID… until SIGINT, or flood PORT RATE SECONDS SEED."""
+    if what == "flood":
+        print(*flood(*map(int, words)))
         return
     rate, run, *targets = words
     signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])

@@ -1,5 +1,5 @@
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-"""Whether what a soak has sampled stays as it is: a table and a plot."""
+"""Judges the samples of a soak: a table and a plot."""
 
 import math
 import pathlib
@@ -11,14 +11,14 @@ from drawings.axes import Axes  # noqa: E402
 from drawings.svg import INK, Picture  # noqa: E402
 
 WARM_UP = 0.15  # of the time, while caches fill
-# What a quantity may grow by from begin to end: a share of what it was, or at least so much.
+# How much a quantity may grow: a share of its first value, or the second number if that is more.
 ALLOWED = {"rss": (0.02, 1.0), "pss": (0.02, 1.0), "descriptors": (0, 0.5), "threads": (0, 0.5), "latency": (0.5, 3.0)}
 UNITS = {"rss": "MiB", "pss": "MiB", "descriptors": "", "threads": "", "latency": "ms"}
 COLOURS = ("#1565c0", "#ef6c00", "#2e7d32", "#8e24aa", "#c62828")
 
 
 def slope(points):
-    """The median of the slopes between all pairs: outliers do not count."""
+    """The median of the slopes between all pairs, which outliers do not change."""
     slopes = [(b[1] - a[1]) / (b[0] - a[0]) for i, a in enumerate(points) for b in points[i + 1:]]
     return statistics.median(slopes) if slopes else 0.0
 
@@ -28,7 +28,7 @@ def series(rows, key):
 
 
 def judge(rows):
-    """Rows of the table, and whether all is flat. Growth is what the slope makes of the time that counts."""
+    """Rows of the table, and whether all is flat. Growth is slope times duration."""
     lines, all_flat = [("quantity", "begin", "end", "slope", "growth", "allowed", "verdict")], True
     counted = [row for row in rows if row["time"] >= WARM_UP * rows[-1]["time"]]
     for key in rows[0]:
@@ -54,7 +54,7 @@ def judge(rows):
 
 
 def stopped(rows):
-    """Cameras of which nothing came in two samples, one after another, or at the end."""
+    """Cameras that sent nothing in two consecutive samples or in the last one."""
     for key in rows[0]:
         if key.startswith("rate "):
             rates = [row[key] for row in rows]

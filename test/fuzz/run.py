@@ -13,7 +13,11 @@ import sys
 import tempfile
 import time
 
-CORPORA = pathlib.Path(__file__).resolve().parent / "corpus"
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "support"))
+from text_table import aligned  # noqa: E402
+
+CORPORA = HERE / "corpus"
 LONGEST_INPUT = 5000
 # Seconds of wall time, in which an input that never ends is found; a machine with other work may stop a run for a while.
 LONGEST_RUN = 1200
@@ -89,12 +93,6 @@ class Target:
         return [self.name, str(len(sizes)), str(sum(sizes))]
 
 
-def print_table(rows):
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    for row in rows:
-        print("  ".join([row[0].ljust(widths[0])] + [cell.rjust(w) for cell, w in zip(row[1:], widths[1:])]))
-
-
 def main():
     parser = argparse.ArgumentParser(prog="scripts/fuzz")
     parser.add_argument("--tree", type=pathlib.Path, required=True, help=argparse.SUPPRESS)
@@ -110,10 +108,11 @@ def main():
     targets = [Target(given.tree, name) for name in given.words or known]
     with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
         if given.minimise:
-            print_table([["target", "files", "bytes"]] + list(pool.map(Target.minimise, targets)))
+            print("\n".join(aligned([["target", "files", "bytes"], *pool.map(Target.minimise, targets)])))
             return 0
         list(pool.map(lambda target: target.run(seconds), targets))
-    print_table([["target", "runs", "corpus files", "features", "findings"]] + [target.row() for target in targets])
+    header = ["target", "runs", "corpus files", "features", "findings"]
+    print("\n".join(aligned([header, *(target.row() for target in targets)])))
     for target in targets:
         for finding in target.found():
             print(f"{target.name}: {target.program} {finding}")

@@ -247,7 +247,7 @@ void run_with_writer_of_the_field(Input& input, Memory& memory) {
 }
 
 /// Rubbish is refused or read as numbers that are finite; a sound writer is read as soon as it has written.
-void run_with_rubbish(Input& input, Memory& memory) {
+void run_with_random_bytes(Input& input, Memory& memory) {
   Link::Clock::time_point now{};
   Link link = attached(memory, now);
   wire::CameraParams params;
@@ -311,6 +311,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Input input(data, size);
   const std::size_t kind = input.below(8);
   Memory memory(*shm::layout_of_size(sizes[kind % 4]));
-  kind < 4 ? run_with_writer_of_the_field(input, memory) : run_with_rubbish(input, memory);
+  kind < 4 ? run_with_writer_of_the_field(input, memory) : run_with_random_bytes(input, memory);
   return 0;
 }

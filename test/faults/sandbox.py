@@ -1,7 +1,7 @@
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-"""A machine of a test's own: networks, shared memory, processes and /tmp that nobody else sees.
+"""A sandbox for a test: private networks, shared memory, processes and /tmp.
 
-They are namespaces of the kernel. What is left in them ends with the test, however that ends.
+It consists of namespaces of the kernel, which end with the test, whichever way it ends.
 """
 
 import os
@@ -11,8 +11,8 @@ import sys
 
 SKIPPED = 77  # SKIP_RETURN_CODE of ctest
 TEMPORARY = pathlib.Path("/tmp")
-HOME = TEMPORARY / "home"  # where programs of ROS write their logs
-_MARK = "TRK_BRIDGE_OWN_MACHINE"
+HOME = TEMPORARY / "home"  # where ROS programs write their logs
+_MARK = "TRK_BRIDGE_SANDBOX"
 _UNSHARE = ["unshare", "--net", "--ipc", "--mount", "--pid", "--fork", "--kill-child", "--mount-proc"]
 
 
@@ -26,14 +26,14 @@ def ip(*lines):
 
 def add_build_arguments(parser, default):
     """--build and --devel, for enter()."""
-    parser.add_argument("--build", type=pathlib.Path, default=default, help="the build whose programs are tried")
+    parser.add_argument("--build", type=pathlib.Path, default=default, help="the build whose programs are tested")
     parser.add_argument("--devel", type=pathlib.Path, help="its devel space; default: devel in BUILD")
 
 
 def enter(options, *kept):
-    """Starts this program again on a machine of its own, and returns there; the messages of the devel space can be imported
-    then. `kept` are folders that stay as they are, also below /tmp; beside them and the build nothing of /tmp is seen. It
-    ends the program with SKIPPED where it has no right to do so."""
+    """Starts this program again in a sandbox, and returns there; then the messages of the devel space can be imported.
+    `kept`: folders that stay visible, also below /tmp; apart from them and the build, /tmp is empty. Without the right to
+    make namespaces, it ends the program with SKIPPED."""
     options.devel = (options.devel or options.build / "devel").resolve()
     if not options.devel.is_dir():
         sys.exit(f"no {options.devel}: build first, or say --build or --devel")
@@ -51,7 +51,7 @@ def enter(options, *kept):
     HOME.mkdir()
     os.environ.update(HOME=str(HOME), ROS_HOME=str(HOME / ".ros"), ROS_IP="127.0.0.1", TMPDIR=str(TEMPORARY))
     os.environ.pop("ROS_HOSTNAME", None)
-    # Groups are joined on the loopback where a URL names no interface.
+    # If a URL names no interface, groups are joined on the loopback interface.
     ip("link set lo up multicast on", "route add 224.0.0.0/4 dev lo")
 
 
@@ -67,21 +67,21 @@ def _hide_temporary(kept):
     run("umount", outside)
 
 
-INTERFACE = "trk0"  # of plug_in()
+INTERFACE = "trk0"  # of add_interface()
 
 
-def plug_in():
-    """An interface with an address and a cable, for groups."""
+def add_interface():
+    """Adds an interface with an address and a peer, for multicast."""
     ip(f"link add {INTERFACE} type veth peer name far0", f"link set {INTERFACE} up", "link set far0 up",
        f"addr add 10.9.0.1/24 dev {INTERFACE}")
 
 
-def unplug():
+def remove_interface():
     ip(f"link del {INTERFACE}")
 
 
 def everything():
-    """What a test can leave behind: a set of texts."""
+    """All that a test can leave behind, as a set of texts."""
     return _segments() | _files() | _processes() | _interfaces()
 
 

@@ -1,5 +1,5 @@
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-"""What every case uses: a master, nodes, cameras on the way into ROS, and the judgement of what arrived."""
+"""What every case uses: a master, nodes, cameras on their way into ROS, and the checks of what arrived."""
 
 import contextlib
 import itertools
@@ -11,21 +11,21 @@ from typing import Optional
 
 import rospy
 
-import own_machine
+import sandbox
 import sets
 from counts import SHOWN, Counts
-from processes import Failure, Programs, free_port, wait_for
+from processes import Failure, Programs, free_port, wait_for, wait_until_still
 from ros_side import Diagnostics, Listener, Master
 from trackers import Forwarder, Tracker, damage_byte, damage_text
 
 
 @dataclass
 class Result:
-    """A row of the table. `wrong` is empty where all is as it must be."""
+    """A row of the table. `wrong` lists what must not be; empty: the case has passed."""
     sent: int = 0
     arrived: int = 0
     lost: int = 0  # sent and not arrived
-    duplicates: int = 0  # that came and were dropped
+    duplicates: int = 0  # received and dropped
     recovery: Optional[float] = None  # s, the longest
     wrong: list = field(default_factory=list)
     note: str = ""
@@ -42,8 +42,8 @@ class Result:
         self.recovery = max(self.recovery or 0.0, seconds)
 
 
-class Laboratory:
-    """`folder` is for its logs. What is random comes from `rng`, which the caller seeds for each case."""
+class Testbed:
+    """`folder` is for logs. All random values come from `rng`, which the caller seeds for each case."""
 
     def __init__(self, devel, root, folder, is_long=False, kills=0):
         self.programs = Programs(devel)
@@ -52,7 +52,7 @@ class Laboratory:
         self.rng = random.Random()
         self._is_long, self._kills = is_long, kills
         self.master = Master(folder)
-        # Of what is killed on purpose it warns.
+        # It would warn of every process that is killed on purpose.
         logging.getLogger("rospy").setLevel(logging.ERROR)
         rospy.init_node("faults", anonymous=True, disable_signals=True, disable_rosout=True)
         self.diagnostics = Diagnostics()
@@ -63,11 +63,11 @@ class Laboratory:
         return next(self._names)
 
     def choose(self, short, long):
-        """By the form of the run."""
+        """The value for the short or for the long form."""
         return long if self._is_long else short
 
     def kills(self, share):
-        """Of all kills the share of a case."""
+        """The number of kills of a case, which has this share of all."""
         return max(1, round(share * self._kills))
 
     def new_folder(self):
@@ -84,12 +84,12 @@ class Laboratory:
         time.sleep(seconds)
 
     def log(self, name):
-        """A new file."""
+        """The path of a new log file."""
         return self.folder / f"{next(self._logs)}_{name}.log"
 
     @contextlib.contextmanager
     def node(self, program, namespace, **parameters):
-        """A node with these parameters that has reported its state; ends in order."""
+        """A node with these parameters. It is ended with SIGINT, and must end without an error."""
         name = f"{namespace}/{program}"
         self.set_parameters(name, **parameters)
         node = Node(self, program, name)
@@ -100,7 +100,7 @@ class Laboratory:
             node.process.kill()
 
     def subscribe_again(self):
-        """After the master was restarted: it knows nobody."""
+        """After a restart of the master, which does not know the old subscribers."""
         self.diagnostics.close()
         self.diagnostics = Diagnostics()
 
@@ -109,56 +109,56 @@ class Laboratory:
 
     @contextlib.contextmanager
     def leaving_nothing(self, wrong):
-        """Whether all is as before afterwards."""
-        before = own_machine.everything()
+        """Checks that nothing is left behind that was not there before; what is left is added to `wrong`."""
+        before = sandbox.everything()
         yield
         try:
-            wait_for(lambda: own_machine.everything() <= before, "nothing is left behind", 5)
+            wait_for(lambda: sandbox.everything() <= before, "nothing is left behind", 5)
         except Failure:
-            wrong += [f"left behind: {what}" for what in sorted(own_machine.everything() - before)]
+            wrong += [f"left behind: {what}" for what in sorted(sandbox.everything() - before)]
 
 
 class Node:
-    """A node as a process that may be killed and started again."""
+    """A node as a process, which can be killed and started again."""
 
-    def __init__(self, laboratory, program, name):
+    def __init__(self, testbed, program, name):
         self.name = name
-        self._laboratory, self._program = laboratory, program
+        self._testbed, self._program = testbed, program
         self.start()
 
     def start(self):
-        laboratory = self._laboratory
-        self.process = laboratory.programs.node(self._program, self.name, laboratory.log(self._program))
+        testbed = self._testbed
+        self.process = testbed.programs.node(self._program, self.name, testbed.log(self._program))
 
     def end(self):
         if self.process.end() != 0:
-            raise Failure(f"{self.name} ended with {self.process.code()}: {self.process.said()[-1000:]}")
+            raise Failure(f"{self.name} ended with {self.process.code()}: {self.process.output()[-1000:]}")
 
     def wait(self, subject, condition, what):
-        return self._laboratory.diagnostics.wait(f"{self.name}: {subject}", condition, what)
+        return self._testbed.diagnostics.wait(f"{self.name}: {subject}", condition, what)
 
 
 class Camera(contextlib.AbstractContextManager):
     """A camera on its way into ROS: tracker, path with faults, trk_to_ros, subscriber. `protocol`: trk, freed or opentrackio.
-    With `sinks` a relay stands behind the tracker and writes to these; LIVE among them is where the node listens.
+    With `sinks`, a relay between tracker and node writes to them; LIVE among them stands for the source of the node.
 
-    send() as often as wanted, then result() once.
+    Call send() any number of times, then result() once.
     """
 
     RATE = 100  # Hz
     LIVE = "live"
 
-    def __init__(self, laboratory, path=None, protocol="trk", source=None, sinks=(), rate=RATE, **parameters):
-        self._laboratory, self._rate, self._protocol = laboratory, rate, protocol
-        self.name = laboratory.next_name()
+    def __init__(self, testbed, path=None, protocol="trk", source=None, sinks=(), rate=RATE, **parameters):
+        self._testbed, self._rate, self._protocol = testbed, rate, protocol
+        self.name = testbed.next_name()
         self.port = free_port()
         self._stack = contextlib.ExitStack()
         with self._stack as stack:
             scheme = {"trk": "udp"}.get(protocol, protocol)
-            lens = "?lens=" + str(laboratory.lens) if protocol == "freed" else ""
+            lens = "?lens=" + str(testbed.lens) if protocol == "freed" else ""
             source = source or f"{scheme}://127.0.0.1:{self.port}{lens}"
             self.node = stack.enter_context(
-                laboratory.node("trk_to_ros", "/" + self.name, source=source, queue_size=10000, **parameters))
+                testbed.node("trk_to_ros", "/" + self.name, source=source, queue_size=10000, **parameters))
             self.node.wait(self.name, lambda *_: True, "the node reports")
             self.arrivals = sets.Arrivals(1, protocol != "freed", sets.FREE_D_ERROR if protocol == "freed" else None)
             self._listener = Listener(f"/{self.name}/params", self.arrivals.add)
@@ -168,7 +168,7 @@ class Camera(contextlib.AbstractContextManager):
             self.entrance = self.port
             if path is not None:
                 damage = damage_text if protocol == "trk" else damage_byte
-                self.forwarder = Forwarder(self.port, path, random.Random(laboratory.rng.random()), damage)
+                self.forwarder = Forwarder(self.port, path, random.Random(testbed.rng.random()), damage)
                 self.entrance = self.forwarder.port
             if protocol != "trk":
                 options = f"{lens or '?'}&id=1".replace("?&", "?")
@@ -176,10 +176,10 @@ class Camera(contextlib.AbstractContextManager):
             if sinks:
                 port = free_port()
                 sinks = [source if sink is self.LIVE else sink for sink in sinks]
-                self.relay = laboratory.programs.relay(f"udp://127.0.0.1:{port}", *sinks, log=laboratory.log("relay"))
+                self.relay = testbed.programs.relay(f"udp://127.0.0.1:{port}", *sinks, log=testbed.log("relay"))
                 stack.callback(self.relay.kill)
                 self.entrance = port
-                wait_for(lambda: "reading udp" in self.relay.said(), "the relay listens")
+                wait_for(lambda: "reading udp" in self.relay.output(), "the relay listens")
             self._stack = stack.pop_all()
         self._runs = itertools.count(1)
         self.sent = 0
@@ -188,24 +188,24 @@ class Camera(contextlib.AbstractContextManager):
         return self._stack.__exit__(*details)
 
     def tracker(self):
-        """A new sender, with a run of its own."""
+        """A new sender, with a new run number."""
         return Tracker([(self.entrance, 1)], self._rate, next(self._runs))
 
     def send(self, seconds):
-        """By a new sender, to its end."""
+        """Sends with a new sender, and waits until it has ended."""
         tracker = self.tracker()
-        self._laboratory.pause(seconds)
+        self._testbed.pause(seconds)
         self.sent += tracker.stop()
 
     def result(self):
-        """The judgement after the last was sent: what arrived, and that /diagnostics show what was done."""
+        """After the last set was sent: checks what arrived, and that /diagnostics shows what was done."""
         result = Result(sent=self.sent)
         if self.forwarder:
             if self.relay:
-                self._laboratory.pause(0.3)
+                wait_until_still(lambda: self.arrivals.count)
             self.forwarder.stop()
         values = self.settled()
-        # What is published is on its way for a moment.
+        # Published messages arrive a moment later.
         with contextlib.suppress(Failure):
             wait_for(lambda: self.arrivals.count >= int(values["received"]), "all arrives", 20)
         result.take(self.arrivals)
@@ -218,7 +218,7 @@ class Camera(contextlib.AbstractContextManager):
         return result
 
     def settled(self):
-        """The values of the diagnostics when nothing comes any more: twice the same."""
+        """The values of the diagnostics after the last record: they were the same twice."""
         seen = []
 
         def stand(_, values):
@@ -232,7 +232,7 @@ class Camera(contextlib.AbstractContextManager):
         expected = vars(Counts.of(emitted) if self._protocol == "trk" else Counts(received=len(emitted)))
         expected["malformed"] = self.forwarder.corrupted
         for name, key in SHOWN.items():
-            # Without numbers (of trk only) nothing else is known.
+            # Only the sets of trk have a number, from which the other counts follow.
             if self._protocol == "trk" or name in ("received", "malformed"):
                 result.expect(int(values[key]) == expected[name],
                               f"{key}: {values[key]} in the diagnostics, {expected[name]} was done")
