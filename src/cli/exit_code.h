@@ -8,7 +8,7 @@ enum ExitCode : int {
   exit_good = 0,
   exit_failed = 1,   ///< something could not be opened, received or sent
   exit_usage = 2,    ///< the command line was not understood
-  exit_nothing = 3,  ///< no record was received before a limit
+  exit_nothing = 3,  ///< a limit was given, and no record was received
   exit_alarm = 4,    ///< an alarm was raised
 };
 

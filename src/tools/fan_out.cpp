@@ -92,17 +92,19 @@ void FanOut::report(const std::string& line) {
   err_ << "trk: " << line << '\n';
 }
 
-void FanOut::close() {
+void FanOut::close(bool got_nothing) {
   if (departures_) departures_->finish();
   for (const auto& outlet : outlets_) outlet->finish();
   for (const auto& outlet : outlets_) {
     const auto closed = outlet->close();
     if (closed) continue;
     const auto lost = outlet->unwritten();
-    report("error: " + outlet->name() + ": " +
-           (closed.error().reason == SinkReason::no_constants ? "no constants were received, so nothing was written"
-                                                              : transport::describe(closed.error())) +
-           (lost > 0 ? "; " + std::to_string(lost) + " queued records are lost" : ""));
+    const bool lacks_constants = closed.error().reason == SinkReason::no_constants;
+    if (lacks_constants && got_nothing) continue;
+    report(
+        "error: " + outlet->name() + ": " +
+        (lacks_constants ? "no constants were received, so nothing was written" : transport::describe(closed.error())) +
+        (lost > 0 ? "; " + std::to_string(lost) + " queued records are lost" : ""));
     const std::lock_guard<std::mutex> lock(mutex_);
     is_good_ = false;
   }

@@ -32,8 +32,9 @@ class FanOut {
   /// Call after all sinks are added.
   void write(const wire::CameraParams&, const transport::RecordTime& time = {});
   void write(const wire::CameraConstants&);
-  /// Writes what is queued or delayed, and closes all sinks at the same time.
-  void close();
+  /// Writes what is queued or delayed, and closes all sinks at the same time. With `got_nothing`, a file without
+  /// constants is not a failure: there was nothing to write.
+  void close(bool got_nothing = false);
 
   /// Prints a line on `err` that is not mixed with those of other threads. Any thread.
   void report(const std::string& line);

@@ -14,9 +14,7 @@ namespace {
 
 class Relay final : public cli::Listener {
  public:
-  Relay(FanOut& sinks, std::optional<double> seconds) : sinks_(sinks), seconds_(seconds) {}
-
-  cli::Ending listen(transport::Source& source) { return cli::listen(source, *this, seconds_); }
+  explicit Relay(FanOut& sinks) : sinks_(sinks) {}
 
   bool on_sample(const transport::Sample& sample) override {
     tally_.add(sample);
@@ -36,9 +34,9 @@ class Relay final : public cli::Listener {
                   describe(reception.fault) + " (reported once)");
   }
 
-  cli::ExitCode finish(const transport::SourceStatistics& source, cli::Ending ending) {
-    sinks_.close();
-    const cli::ExitCode ended = cli::report_end(tally_, source, ending, seconds_.has_value(), sinks_.err());
+  cli::ExitCode finish(const transport::SourceStatistics& source, cli::Ending ending, bool has_limit) {
+    sinks_.close(/*got_nothing=*/has_limit && tally_.received() == 0);
+    const cli::ExitCode ended = cli::report_end(tally_, source, ending, has_limit, sinks_.err());
     sinks_.summarise();
     if (without_lens_ != 0) {
       sinks_.report("not passed on: " + std::to_string(without_lens_) +
@@ -57,7 +55,6 @@ class Relay final : public cli::Listener {
   }
 
   FanOut& sinks_;
-  const std::optional<double> seconds_;
   cli::Tally tally_;
   std::map<std::string_view, std::uint64_t> malformed_;
   std::uint64_t without_lens_ = 0;
@@ -66,9 +63,9 @@ class Relay final : public cli::Listener {
 }  // namespace
 
 cli::ExitCode relay(transport::Source& source, FanOut& sinks, std::optional<double> seconds) {
-  Relay relay(sinks, seconds);
-  const cli::Ending ending = relay.listen(source);
-  return relay.finish(source.statistics(), ending);
+  Relay relay(sinks);
+  const cli::Ending ending = cli::listen(source, relay, seconds);
+  return relay.finish(source.statistics(), ending, seconds.has_value());
 }
 
 }  // namespace trk_bridge::tools
