@@ -82,8 +82,8 @@ void add_missed(std::vector<Finding>& found, const SourceReports& reports) {
     bridge::warn(found, Condition::other_interface,
                  "nothing is received by " + reports.now.source_name + ", but " +
                      std::to_string(reports.missed.unclaimed) + " datagrams" + when +
-                     " arrived at an address or port of this machine where no program listens: the sender uses another "
-                     "interface, address or port");
+                     " arrived at an address or port of this machine where no program listens: perhaps the sender uses "
+                     "another interface, address or port");
   }
 }
 
