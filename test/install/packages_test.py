@@ -16,23 +16,23 @@ MULTIARCH = "usr/lib/ARCHITECTURE"
 
 
 def packaged_path(path, without_ros):
-    """Where the packages have a file of the prefix; none for catkin's setup files, which it writes for a prefix alone."""
+    """The path of an installed file in the packages; None for catkin's setup files, which are not packaged."""
     parts = path.parts
     if len(parts) == 1:
         return None
     if parts[0] == "lib" and parts[1] != "trk_bridge" and not parts[1].startswith("python"):
         return "/".join((MULTIARCH, *parts[1:]))
-    # Debian's catkin, for /usr.
+    # Debian's catkin installs these here if the prefix is /usr.
     if parts[:3] == ("share", "trk_bridge", "cmake") and not path.name.endswith("-msg-paths.cmake"):
         return "/".join((MULTIARCH, "cmake/trk_bridge", *parts[3:]))
-    # debian/rules moves these, and makes the link that there is with ROS.
+    # Without ROS, debian/rules moves bin, and adds a link usr/bin/trk.
     if without_ros and parts[0] == "bin":
         return "/".join(("usr/lib/trk_bridge", *parts[1:]))
     return "usr/" + path.as_posix()
 
 
 def packages_of(control, without_ros):
-    """The names of those that are made."""
+    """The packages that are built."""
     names = []
     for paragraph in control.split("\n\n"):
         name = re.search(r"^Package: (\S+)$", paragraph, re.MULTILINE)
@@ -42,7 +42,7 @@ def packages_of(control, without_ros):
 
 
 def patterns_of(debian, package, without_ros):
-    """What the package's list claims. Of several words in a line the last is where the others go."""
+    """The patterns in the list of a package. In a line with several words, the last one is the target folder."""
     lists = [debian / f"{package}.install"]
     if without_ros:
         lists.append(debian / f"{package}.install.noros")
@@ -51,7 +51,7 @@ def patterns_of(debian, package, without_ros):
 
 
 def matcher(pattern):
-    """Of the shell's pattern and, where it finds a folder, of all that is in there."""
+    """A regular expression for a shell pattern; a folder matches all its contents."""
     return re.compile(re.escape(pattern).replace(r"\*", "[^/]*") + "(/.*)?")
 
 
@@ -64,7 +64,8 @@ def main():
 
     files = {packaged_path(path.relative_to(arguments.prefix), arguments.without_ros)
              for path in arguments.prefix.rglob("*") if path.is_symlink() or not path.is_dir()} - {None}
-    files.add("usr/bin/trk")
+    if arguments.without_ros:
+        files.add("usr/bin/trk")
     claims = {path: [] for path in files}
     faults = []
     for package in packages_of((arguments.debian / "control").read_text(), arguments.without_ros):
