@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # For find_package(trk_bridge CONFIG) in other projects.
 install(EXPORT trk_bridge NAMESPACE trk_bridge:: FILE trk_bridgeTargets.cmake DESTINATION ${TRK_BRIDGE_CMAKE_DIR})
 

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # Messages and the catkin side of the package.
 find_package(catkin REQUIRED COMPONENTS
   diagnostic_msgs
@@ -71,7 +72,7 @@ if(in_own_build_folder EQUAL 0)
 endif()
 set(TRK_BRIDGE_INCLUDE_DIR ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 set(TRK_BRIDGE_SHARE_DIR ${CATKIN_PACKAGE_SHARE_DESTINATION})
-# Where catkin_package() puts its own; Debian's catkin, for /usr, below the libraries.
+# The folder of the files of catkin_package(). Debian's catkin with prefix /usr puts them below the libraries.
 set(TRK_BRIDGE_CMAKE_DIR ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
 if(NOT CATKIN_GLOBAL_LIB_DESTINATION STREQUAL "lib")
   set(TRK_BRIDGE_CMAKE_DIR ${CATKIN_GLOBAL_LIB_DESTINATION}/cmake/${PROJECT_NAME})

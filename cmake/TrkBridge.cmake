@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # Functions and options for all targets of this project.
 include(CheckCXXSourceCompiles)
 

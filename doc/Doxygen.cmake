@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # Target doc: the pages of the C and C++ interfaces, in doc/html of the build. A warning is an error.
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-"""Whether the evidence in QUALITY_DECLARATION.md is there: quality_test.py [ROOT] [BUILD].
+"""Checks the evidence in QUALITY_DECLARATION.md: quality_test.py [ROOT] [BUILD].
 
 A figure is followed by the command that gives it, `12 files <!-- = ls test | wc -l -->`: the number before must be what the
 command prints. Tests that the page names as `ctest -R NAME` must exist in BUILD, files and scripts in backticks in ROOT.
@@ -16,8 +16,8 @@ FIGURE = re.compile(r"(?P<number>\d[\d,.]*)(?P<words>[^|\d]*?)<!-- = (?P<command
 TEST = re.compile(r"`ctest -R (?P<pattern>[^`]+)`")
 PATH = re.compile(r"`(?P<path>(?:scripts|test|doc|include|src|\.ci)/[\w./-]*)`")
 COPYRIGHT = re.compile(r"Copyright \(c\) \d{4},? trk_bridge maintainers")
-SOURCES = ("*.h", "*.c", "*.cpp", "*.py", "*.sh", "scripts/*", ".ci/run")
-# A text, and a list of words that carries no code.
+SOURCES = ("*.h", "*.c", "*.cpp", "*.py", "*.sh", "*.zsh", "*.cmake", "scripts/*", ".ci/run", "test/rviz/with_display")
+# Lists without code.
 NO_CODE = {"scripts/cppcheck_suppressions.txt"}
 
 

@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # Installs to an empty folder, moves it, and hides the source and the build if private mounts are permitted. Then builds
 # and runs programs of another project, which find the package with CMake and with pkg-config, and uses the installed
 # files. Checks that each of them is in a Debian package.

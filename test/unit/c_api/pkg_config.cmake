@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # Installs to an empty folder and builds a C program with the flags of pkg-config, like a user does.
 set(prefix ${BUILD}/pkg_config_test)
 

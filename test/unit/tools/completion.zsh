@@ -1,3 +1,4 @@
+# Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # Types into an interactive zsh that has loaded the completion script FILE: completion.zsh FILE. Prints the arguments of
 # each call of a fake trk.
 zmodload zsh/zpty
