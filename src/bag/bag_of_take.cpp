@@ -29,13 +29,13 @@ namespace {
 
 /// Named and checked like in trk_to_ros.
 ros1::CameraFrames frames_of(const TakeToBagOptions& options) {
-  if (const auto sound = ros1::check_camera_name(options.camera); !sound) {
-    refuse("--camera", ros1::shown(options.camera), sound.error());
+  if (const auto checked = ros1::check_camera_name(options.camera); !checked) {
+    refuse("--camera", ros1::shown(options.camera), checked.error());
   }
   const auto frame = [](const char* option, const std::string& value) {
-    const auto sound = ros1::parse_frame(value);
-    if (!sound) refuse(option, ros1::shown(value), sound.error());
-    return *sound;
+    const auto checked = ros1::parse_frame(value);
+    if (!checked) refuse(option, ros1::shown(value), checked.error());
+    return *checked;
   };
   ros1::CameraFrames frames = ros1::default_frames(options.camera);
   frames.studio = frame("--studio-frame", options.studio_frame);

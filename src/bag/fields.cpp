@@ -36,7 +36,7 @@ void Omissions::add(const std::string& reason, std::int64_t stamp) {
 
 void Omissions::report(std::ostream& err) const {
   for (const auto& reason : reasons_) {
-    err << "trk: left out: " << reason.times << " fields, the first at " << base::seconds_text(reason.first) << ": "
+    err << "trk: omitted: " << reason.times << " fields, the first at " << base::seconds_text(reason.first) << ": "
         << reason.text << '\n';
   }
 }

@@ -210,7 +210,7 @@ class LensFits {
 
   void report(std::ostream& err) const {
     report(err, "k1 and k2 differ from the distortion", largest_.residual);
-    report(err, "tangential distortion is left out", largest_.tangential);
+    report(err, "tangential distortion is ignored", largest_.tangential);
     report(err, "fy does not agree with fx and the chip", largest_.aspect);
   }
 

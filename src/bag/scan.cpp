@@ -31,7 +31,7 @@ class Scan {
                              : "it is read up to byte " + std::to_string(end) + " of " + std::to_string(file.size());
     if (!chunk_fault_.empty()) result += "; " + chunk_fault_;
     if (unknown_messages_ != 0)
-      result += "; " + std::to_string(unknown_messages_) + " messages of unknown topics were left out";
+      result += "; " + std::to_string(unknown_messages_) + " messages of unknown topics were ignored";
     return result;
   }
 

@@ -126,8 +126,8 @@ std::optional<base::CountedTimeCode> recorded_time_code(Reader& bag, const std::
     const auto message = message_of<trk_bridge::TimeCode>(raw);
     if (stamp_of(message) != stamp) return true;
     found = ros1::from_msg(message);
-    const auto sound = base::parse_time_code(base::to_string(found->code));
-    if (!sound) throw BagError("a message of " + topic + ": " + sound.error());
+    const auto parsed = base::parse_time_code(base::to_string(found->code));
+    if (!parsed) throw BagError("a message of " + topic + ": " + parsed.error());
     return false;
   });
   return found;

@@ -22,7 +22,7 @@ struct Step {
 // Counters with fewer than 64 bits, which continue at 0 after the largest value.
 constexpr std::array<unsigned, 3> short_counters{16, 31, 32};
 
-/// Whether a counter of `size` values has wrapped between `from` and `to`.
+/// Whether a counter of `size` values has wrapped from `from` to `to`, both within `window` of its end.
 constexpr bool wraps(std::uint64_t from, std::uint64_t to, std::uint64_t size) noexcept {
   return from < size && from >= size - Sequence::window && to < Sequence::window;
 }

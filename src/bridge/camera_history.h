@@ -108,7 +108,8 @@ class CameraHistory {
   void add(const camera::Camera&, std::int64_t time, std::int64_t lens_time) noexcept;
 
   /// The camera at these times, extrapolated up to `lead` ns beyond the newest samples and held constant after that.
-  /// None if there are no samples, or if all poses are newer. There is no limit to the age of the lens.
+  /// None if there are no samples, or if all poses are newer. A lens may be of any age; for times before
+  /// the oldest lens, the oldest is used.
   std::optional<Found> at(const PartTimes&, std::int64_t lead) const noexcept;
 
  private:

@@ -19,7 +19,8 @@ constexpr double recent = 2 * second;           // of recent_error_, recent_outl
 constexpr double closes_gap_in = 1.5 * second;  // time constant
 constexpr double hand_over = 2 * second;        // from arrivals to the line
 constexpr double offset_settles_in = 1 * second;
-constexpr double settles_in = 10 * second;  // after a step; a second step to the same side means a wrong rate
+constexpr double settles_in =
+    10 * second;  // after a step; a second one to the same side within this time means a wrong rate
 constexpr double least_samples = 16;
 constexpr double most_jitter = 0.5;  // of an interval
 constexpr double least_interval = 1e3;

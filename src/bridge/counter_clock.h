@@ -39,7 +39,7 @@ class CounterClock {
   /// counter restarted.
   [[nodiscard]] std::int64_t stamp(std::uint64_t counts, std::int64_t arrival) noexcept;
 
-  /// Starts over: the next sample is the first of another sender, or the counter stopped counting.
+  /// Starts over: the next sample is from another sender, or its counter does not count.
   void forget() noexcept;
 
   const CounterClockStatistics& statistics() const noexcept { return statistics_; }

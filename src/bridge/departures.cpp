@@ -168,7 +168,7 @@ std::optional<DepartureStatistics> Departures::statistics(std::size_t destinatio
     all.sent += one.sent;
     all.departures += one.departures;
     all.negative += one.negative;
-    all.left_out += one.left_out;
+    all.ignored += one.ignored;
     all.age_sum += one.age_sum;
     all.margin_sum += one.margin_sum;
     if (one.last_sent < all.last_sent) continue;

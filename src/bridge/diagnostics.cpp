@@ -121,7 +121,7 @@ Finding state(const CameraReport& now, const CameraReport& before, const CameraO
   const double age = seconds_between(now.camera.last_new, now.time);
   if (age > silence_after(field_rate)) {
     if (now.camera.sequence.duplicates > before.camera.sequence.duplicates) {
-      return {Condition::counter_stands, Level::warn,
+      return {Condition::counter_frozen, Level::warn,
               "nothing new for " + duration_text(age) + ": records arrive, but their counter stands still"};
     }
     const std::string why = now.source.waiting_for.empty() ? "" : "; waiting for " + now.source.waiting_for;
@@ -313,7 +313,7 @@ void fill(Status& status, const std::vector<Finding>& found, const CameraReport&
   status.add("failovers", camera.failovers);
   status.add("malformed", now.source.malformed);
   status.add("last malformed", fault_text(now.reader));
-  status.add("taken in spite of a fault", now.source.doubtful);
+  status.add("accepted despite a fault", now.source.doubtful);
   status.add("refused senders", now.source.refused);
   status.add("kernel drops", now.source.kernel_drops);
   status.add("receive buffer", receive_buffer_text(now.source));

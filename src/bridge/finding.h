@@ -22,7 +22,7 @@ enum class Condition : std::uint8_t {
   other_ids_only,
   constants_only,
   nothing_new,
-  counter_stands,
+  counter_frozen,
   uncounted,
   foreign_sender,
   failover,
@@ -53,7 +53,7 @@ enum class Condition : std::uint8_t {
   lens_inexact,
   // of ros_to_trk, which also uses some of those above
   sending,
-  id_left_out,
+  id_not_sent,
   bad_camera_info,
   tf_restarted,
   tf_refused,

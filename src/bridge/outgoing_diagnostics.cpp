@@ -166,9 +166,9 @@ void add_outlet_findings(std::vector<Finding>& found, const SinkReport& now, con
     warn(found, Condition::withheld,
          "not sent, cannot be converted to the format: " + camera::describe(sink.withhold_reason));
   }
-  if (sink.left_out_id != 0) {
-    found.push_back({Condition::id_left_out, Level::ok,
-                     "id " + std::to_string(sink.left_out_id) + " is not sent: the receiver accepts no ids"});
+  if (sink.unsent_id != 0) {
+    found.push_back({Condition::id_not_sent, Level::ok,
+                     "id " + std::to_string(sink.unsent_id) + " is not sent: the receiver accepts no ids"});
   }
   if (!now.queue || now.queue->failed) return;
   const auto drops = now.queue->drops - (before.queue ? before.queue->drops : 0);
@@ -286,7 +286,7 @@ void fill(Status& status, const std::vector<Finding>& found, const SinkReport& n
     status.add("margin (fields)", timing.margin_text());
     status.add("negative margins", now.departures->negative);
     status.add("age of what is sent (ms)", timing.age_text());
-    status.add("duplicate or late samples left out", now.departures->left_out);
+    status.add("duplicate or late samples left out", now.departures->ignored);
   }
   if (!now.queue) return;
   status.add("queued", now.queue->queued);

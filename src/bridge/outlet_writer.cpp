@@ -42,8 +42,8 @@ OutletWriter::Camera* OutletWriter::find_or_add(std::uint32_t id) {
 }
 
 void OutletWriter::write(const wire::CameraConstants& constants) {
-  if (const auto sound = camera::check(constants); !sound) {
-    write_unsound(constants, sound.error());
+  if (const auto checked = camera::check(constants); !checked) {
+    write_invalid(constants, checked.error());
   } else if (auto* camera = find_or_add(constants.id); camera == nullptr) {
     refuse(constants, OutletReason::too_many_ids);
   } else if (camera->converter.use(constants) == camera::ConstantsChange::changed) {
@@ -53,7 +53,7 @@ void OutletWriter::write(const wire::CameraConstants& constants) {
   publish();
 }
 
-void OutletWriter::write_unsound(const wire::CameraConstants& constants, CameraReason reason) {
+void OutletWriter::write_invalid(const wire::CameraConstants& constants, CameraReason reason) {
   if (auto* camera = find(constants.id)) *camera = Camera{without_constants_, {}};
   if (form_.format) return refuse(constants, reason);
   // No conversion was requested: the receiver decides what to do with them. put() reports a fault.
@@ -114,7 +114,7 @@ transport::Written OutletWriter::put(Record record, const Time&... time) {
   const auto own_id = record.id;
   record.id = sent_id(form_, own_id);
   statistics_.last_id = record.id;
-  if (const auto wanted = form_.id.value_or(own_id); wanted != record.id) statistics_.left_out_id = wanted;
+  if (const auto wanted = form_.id.value_or(own_id); wanted != record.id) statistics_.unsent_id = wanted;
   const auto written = sink_->write(record, time...);
   if (!written) lose(own_id, written.error());
   return written;

@@ -59,7 +59,7 @@ struct OutletStatistics {
   camera::CameraReason drop_reason{}, withhold_reason{};
   std::uint64_t refused_constants = 0;  ///< invalid ones (no picture is left), and those of too many ids
   std::uint32_t last_id = 0;            ///< as sent; valid once sent.params > 0
-  std::uint32_t left_out_id = 0;        ///< the last id that was not sent because the receiver accepts no ids
+  std::uint32_t unsent_id = 0;          ///< the last id that was not sent because the receiver accepts no ids
 
   std::uint64_t failed_sets = 0;                                   ///< sets that were not sent completely
   bool fails = false;                                              ///< the last set was one of those
@@ -104,7 +104,7 @@ class OutletWriter {
   Camera* find(std::uint32_t id) noexcept;
   /// Null if there are too many ids.
   Camera* find_or_add(std::uint32_t id);
-  void write_unsound(const wire::CameraConstants&, camera::CameraReason);
+  void write_invalid(const wire::CameraConstants&, camera::CameraReason);
   void refuse(const wire::CameraConstants&, const Loss::Cause&);
   /// In the format; none if they are lost.
   std::optional<wire::CameraParams> converted(const wire::CameraParams&, const Camera*);

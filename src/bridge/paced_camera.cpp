@@ -68,7 +68,7 @@ camera::Result<void> PacedCamera::add(const wire::CameraParams& params, std::int
   }
   if (const auto order = order_.judge(params.counter, wire::fingerprint(params));
       !base::is_new(order) && !history_.is_empty() && time > history_.newest()) {
-    ++left_out_;
+    ++ignored_;
     return {};
   }
   if (!first_counter_) first_counter_ = params.counter;
@@ -102,7 +102,7 @@ bool PacedCamera::waits(std::int64_t now) const noexcept {
 
 DepartureStatistics PacedCamera::statistics(std::size_t output) const noexcept {
   auto statistics = outputs_[output].statistics;
-  statistics.left_out = left_out_;
+  statistics.ignored = ignored_;
   return statistics;
 }
 

@@ -28,7 +28,7 @@ struct DepartureStatistics {
   std::uint64_t departures = 0;  ///< departures that were due while samples arrived
   std::uint64_t negative = 0;    ///< those of `departures` for which the newest samples were too old
   double margin_sum = 0;         ///< fields, sum over departures: how far the newest samples are ahead of the sent time
-  std::uint64_t left_out = 0;    ///< ignored samples: duplicates and late ones by counter, although their time is new
+  std::uint64_t ignored = 0;     ///< ignored samples: duplicates and late ones by counter, although their time is new
 };
 
 /// Reads no clock: `now` is the steady clock, `clock` the clock of the samples' times, both in ns. If the samples'
@@ -91,7 +91,7 @@ class PacedCamera {
   std::int64_t departure_ = 0, arrival_ = 0;  // steady clock, of the last departure and arrival
   std::int64_t offset_ = 0;                   // from the samples' times to the clock
   std::optional<std::uint64_t> first_counter_;
-  std::uint64_t left_out_ = 0;
+  std::uint64_t ignored_ = 0;
 };
 
 }  // namespace trk_bridge::bridge

@@ -128,7 +128,7 @@ std::string manual_page(const CLI::App& app, const std::string& version, const s
   add_entry(page, bold("0"), "Success.");
   add_entry(page, bold("1"), "Something could not be opened, received or sent.");
   add_entry(page, bold("2"), "The command line was not understood.");
-  add_entry(page, bold("3"), "Nothing was received before the limit of the command (--count, --seconds).");
+  add_entry(page, bold("3"), "dump or relay received nothing, although --count or --seconds was given.");
   add_entry(page, bold("4"), "An alarm was raised (--alarm).");
   return page;
 }

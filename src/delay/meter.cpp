@@ -86,7 +86,7 @@ const char* describe(CannotTell reason) noexcept {
     case CannotTell::other_shape:
       return "the aspect ratio of the pictures differs from that of the constants";
     case CannotTell::too_little:
-      return "there are less than two seconds of video with tracking before and after";
+      return "there is less than two seconds of video with tracking before and after";
     case CannotTell::other_time:
       return "video and tracking have stamps of different times: their clocks differ";
     case CannotTell::hardly_moved:

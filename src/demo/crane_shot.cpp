@@ -38,7 +38,7 @@ Parameters read_crane_parameters(const XmlRpc::XmlRpcValue& tree) {
 }
 
 template <typename T>
-T sound(camera::Result<T> result, const char* what) {
+T value_or_throw(camera::Result<T> result, const char* what) {
   if (!result) throw std::runtime_error(std::string(what) + ": " + camera::describe(result.error()));
   return *std::move(result);
 }
@@ -94,13 +94,13 @@ void CraneShot::publish(double seconds) {
   const auto stamp = ::ros::Time::now();
 
   camera_info_.header.stamp = stamp;
-  ros1::to_msg(sound(calibrator_.calibrate(moment.lens, constants), "camera_info"), camera_info_);
+  ros1::to_msg(value_or_throw(calibrator_.calibrate(moment.lens, constants), "camera_info"), camera_info_);
   camera_infos_.publish(camera_info_);
 
   camera::Camera camera;
   camera.lens = moment.lens;
   lens_.header.stamp = stamp;
-  ros1::to_msg(sound(camera::encode(camera, wire::euler, &constants), "lens"), lens_);
+  ros1::to_msg(value_or_throw(camera::encode(camera, wire::euler, &constants), "lens"), lens_);
   lenses_.publish(lens_);
 
   if (!moves_joints_) return;

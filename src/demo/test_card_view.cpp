@@ -46,7 +46,7 @@ double beside_chord(const Eigen::Vector2d& point, const Eigen::Vector2d& from, c
 }  // namespace
 
 camera::Result<View> View::of(const wire::CameraParams& params, const wire::CameraConstants& constants) {
-  if (const auto sound = camera::check(constants); !sound) return tl::unexpected(sound.error());
+  if (const auto checked = camera::check(constants); !checked) return tl::unexpected(checked.error());
   const auto camera = camera::decode(params, &constants);
   if (!camera) return tl::unexpected(camera.error());
   return View(*camera, camera::raster_of(constants));

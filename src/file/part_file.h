@@ -17,7 +17,7 @@ namespace trk_bridge::file {
 
 /// Whether a file may be a FIFO.
 enum class Fifo : std::uint8_t { refused, allowed };
-/// Whether an existing `.part` may be used.
+/// Whether an existing `.part` may be taken over: an empty one, or with `overwrite` any.
 enum class Part : std::uint8_t { taken_over, refused };
 
 /// Written as `PATH.part`. If a writer dies, its data stays in `PATH.part`, and there is no file with the final name. A

@@ -24,7 +24,7 @@ using Read = base::YamlRead<T>;
 constexpr double play = 0.01;        // of the range, at each end
 constexpr double count_step = 0.25;  // for the inverse
 
-// With such numbers nothing that is computed from them overflows, and counts are exact to more than count_step.
+// Limits of the numbers in a table: results do not overflow, and a double resolves counts more finely than count_step.
 constexpr double largest = 1e9;
 constexpr double smallest = 1 / largest;  // of numbers that must be more than 0
 constexpr double least_step = 1e-3;       // from one zoom to the next
@@ -45,8 +45,8 @@ Read<double> number_of(const YamlValue& value) {
     return fault(value.mark, value.key + ": must be a number");
   }
   if (std::abs(number) > largest) {
-    return fault(value.mark, value.key + ": must be from " + text_of(-largest) + " to " + text_of(largest) + ", is " +
-                                 text_of(number));
+    return fault(value.mark,
+                 value.key + ": the magnitude must not be more than " + text_of(largest) + ", is " + text_of(number));
   }
   return number;
 }

@@ -29,7 +29,7 @@ std::uint32_t id_of(const transport::Sample& sample) {
 
 camera::Result<double> horizontal_angle(const camera::Lens& lens, const wire::CameraConstants* constants) {
   if (constants == nullptr) return tl::unexpected(camera::CameraReason::constants_needed);
-  if (const auto sound = camera::check(*constants); !sound) return tl::unexpected(sound.error());
+  if (const auto checked = camera::check(*constants); !checked) return tl::unexpected(checked.error());
   return camera::field_of_view(lens.image_distance, constants->chip_width);
 }
 

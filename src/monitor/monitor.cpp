@@ -71,7 +71,7 @@ class Watch final : public cli::Listener {
 
   cli::ExitCode finish(std::ostream& err) {
     if (recording.is_on()) err << "trk: " << recording.end() << '\n';
-    const auto ended = cli::report_end(tally_, source_.statistics(), ending_, false, err);
+    const auto ended = cli::report_end(tally_, source_.statistics(), ending_, /*has_limit=*/false, err);
     return ended == cli::exit_good && was_alarmed_ ? cli::exit_alarm : ended;
   }
 

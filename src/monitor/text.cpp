@@ -138,8 +138,8 @@ Group constants(const wire::CameraConstants& c) {
                                 std::to_string(c.blank_right) + " top " + std::to_string(c.blank_top) + " bottom " +
                                 std::to_string(c.blank_bottom)));
   }
-  if (const auto sound = camera::check(c); !sound) {
-    group.cells.push_back(words(camera::describe(sound.error()), Style::error));
+  if (const auto checked = camera::check(c); !checked) {
+    group.cells.push_back(words(camera::describe(checked.error()), Style::error));
   }
   return group;
 }
@@ -184,7 +184,7 @@ Cell state_of(const transport::SourceStatistics& source) {
 std::vector<Cell> counts_of(const State& state) {
   std::vector<Cell> cells{{"records", std::to_string(state.source.records), ""},
                           error_count("malformed", state.source.malformed)};
-  add_if_any(cells, "taken in spite of a fault", state.source.doubtful);
+  add_if_any(cells, "accepted despite a fault", state.source.doubtful);
   add_if_any(cells, "refused", state.source.refused);
   add_if_any(cells, "kernel drops", state.source.kernel_drops);
   add_if_any(cells, "overwritten", state.source.overwritten);

@@ -26,7 +26,7 @@ Names& names() {
 NodeletName::NodeletName(std::string name, std::chrono::milliseconds longest_wait) : name_(std::move(name)) {
   std::unique_lock<std::mutex> lock(names().mutex);
   if (!names().one_is_free.wait_for(lock, longest_wait, [&] { return names().held.insert(name_).second; })) {
-    throw std::runtime_error("the nodelet that had this name before has not ended");
+    throw std::runtime_error("the previous nodelet with this name has not ended yet");
   }
 }
 

@@ -80,8 +80,8 @@ std::string text_of(Reason reason, int member) {
     case Reason::missing:
       return path + " is missing";
     case Reason::source_number:
-      return "sourceNumber is missing or not 1 to 200: the standard requires to discard such samples (source=any "
-             "accepts them)";
+      return "sourceNumber is missing or not 1 to 200: the standard requires that such samples are discarded "
+             "(source=any accepts them)";
     case Reason::empty_sample:
       return "neither transforms nor static.camera with size and resolution of the sensor";
     case Reason::unknown_model:
@@ -89,8 +89,7 @@ std::string text_of(Reason reason, int member) {
              "they have: the lens is ignored";
     case Reason::sensor_needed:
       return "lens.distortion must be fitted to k1 and k2, but static.camera has not given the size and resolution of "
-             "the "
-             "sensor: the lens is ignored";
+             "the sensor: the lens is ignored";
     case Reason::no_fit:
       return "lens.distortion folds within the image, or cannot be approximated by k1 and k2: the lens is ignored";
     case Reason::no_source_number:

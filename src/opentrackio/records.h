@@ -79,7 +79,7 @@ struct WriterSettings {
 };
 
 /// Converts records to samples. Fields whose value cannot be computed from the standard members are written to
-/// `custom`. Stores the constants must be sent of each id; allocates only for new ids.
+/// `custom`. Stores the constants of each id, which are sent with its next parameters; allocates only for new ids.
 class RecordsWriter {
  public:
   explicit RecordsWriter(const WriterSettings& settings) : settings_(settings) {}

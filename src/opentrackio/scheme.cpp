@@ -183,7 +183,8 @@ tl::expected<SinkSettings, std::string> sink_settings(const Url& url) {
   const auto source =
       std::find_if(url.options.begin(), url.options.end(), [](const auto& option) { return option.key == "source"; });
   Url with_host = url;
-  // An invalid source number is refused below, with all other options.
+  // A placeholder that set_place() accepts: the source number is read, and refused if it is invalid, with all other
+  // options below.
   if (has_no_host(url) && source != url.options.end()) {
     with_host.place = "//" + group_of(groups.front(), 1) + url.place.substr(2);
   }

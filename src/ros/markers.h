@@ -35,10 +35,10 @@ inline constexpr double marker_near = 0.2;
 
 /// A camera as markers: frustum, optical axis, plane in focus, name. Makes four markers for every sample, each with id
 /// 0 and its own namespace: `<camera>/frustum` (LINE_LIST, marker_near to `far`), `<camera>/axis` (LINE_LIST, to
-/// `far`), `<camera>/focus` (TRIANGLE_LIST) and `<camera>/name` (TEXT_VIEW_FACING, above the camera). They are in the
-/// optical frame at their stamp, in m. What cannot be drawn has the action DELETE: the plane in focus if
-/// camera::draws_focus(focdist) is false, all markers if the lens cannot be drawn. Not synchronised. The border is
-/// computed only when the lens changes.
+/// `far`), `<camera>/focus` (TRIANGLE_LIST) and `<camera>/name` (TEXT_VIEW_FACING, above the camera). They are in m, in
+/// the optical frame at their stamp, and do not move with it afterwards. What cannot be drawn has the action DELETE:
+/// the plane in focus if camera::draws_focus(focdist) is false, all markers if the lens cannot be drawn. Not
+/// synchronised. The border is computed only when the lens changes.
 class CameraMarkers {
  public:
   /// `far` (m) is more than marker_near; markers disappear `lifetime` seconds after the last ones were received.

@@ -99,16 +99,16 @@ std::string shown(double number) {
 }
 
 tl::expected<void, std::string> check_camera_name(const std::string& name) {
-  bool sound = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
-  for (const char c : name) sound = sound && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_');
-  if (sound) return {};
+  bool valid = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
+  for (const char c : name) valid = valid && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_');
+  if (valid) return {};
   return tl::make_unexpected(std::string("a camera's name must begin with a letter, then letters, digits and _"));
 }
 
 tl::expected<std::string, std::string> parse_frame(const std::string& frame) {
-  bool sound = !frame.empty() && frame[0] != '/';
-  for (const char c : frame) sound = sound && std::isspace(static_cast<unsigned char>(c)) == 0;
-  if (sound) return frame;
+  bool valid = !frame.empty() && frame[0] != '/';
+  for (const char c : frame) valid = valid && std::isspace(static_cast<unsigned char>(c)) == 0;
+  if (valid) return frame;
   return tl::make_unexpected(std::string("must be a tf frame: not empty, no leading slash, no white space"));
 }
 
@@ -184,14 +184,14 @@ std::optional<std::vector<std::string>> ParameterReader::texts(const std::string
   auto* value = find(key);
   if (value == nullptr) return std::nullopt;
   if (value->getType() == XmlRpcValue::TypeString) return std::vector{static_cast<std::string&>(*value)};
-  bool sound = value->getType() == XmlRpcValue::TypeArray;
+  bool valid = value->getType() == XmlRpcValue::TypeArray;
   std::vector<std::string> all;
-  for (int i = 0; sound && i < value->size(); ++i) {
+  for (int i = 0; valid && i < value->size(); ++i) {
     auto& one = (*value)[i];
-    sound = one.getType() == XmlRpcValue::TypeString;
-    if (sound) all.push_back(static_cast<std::string&>(one));
+    valid = one.getType() == XmlRpcValue::TypeString;
+    if (valid) all.push_back(static_cast<std::string&>(one));
   }
-  if (sound) return all;
+  if (valid) return all;
   refuse(key, text_of(*value), "must be a list of texts");
   return std::nullopt;
 }
@@ -261,16 +261,16 @@ bool ParameterReader::constants(const std::string& key, std::optional<wire::Came
     faulty_.push_back(key);
     return false;
   }
-  if (const auto sound = camera::check(given); !sound) {
-    return refuse(key, text_of(tree_[key]), camera::describe(sound.error()));
+  if (const auto checked = camera::check(given); !checked) {
+    return refuse(key, text_of(tree_[key]), camera::describe(checked.error()));
   }
   into = given;
   return true;
 }
 
 void check_camera_name(const std::string& name, ParameterReader& reader) {
-  if (const auto sound = check_camera_name(name); !sound) {
-    reader.fault("camera name " + shown(name) + " (from the namespace or the map cameras): " + sound.error());
+  if (const auto checked = check_camera_name(name); !checked) {
+    reader.fault("camera name " + shown(name) + " (from the namespace or the map cameras): " + checked.error());
   }
 }
 

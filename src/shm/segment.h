@@ -81,8 +81,8 @@ struct RecordImage {
   }
 };
 
-/// Attached processes by the kernel. If two are equal, nobody attached or detached in between, except a process that
-/// attached twice within a second.
+/// The attached processes as the kernel counts them. If two are equal, nobody attached or detached in between, except a
+/// process that attached twice within a second.
 struct AttachInfo {
   std::size_t attachments = 0;  ///< 0 also if the kernel does not report it
   pid_t last = 0;               ///< the process that attached or detached last

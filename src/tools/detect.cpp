@@ -157,8 +157,8 @@ class Listening {
     return one;
   }
 
-  /// If several readings accept records of the camera, the one that accepts most is used. The other one is mentioned
-  /// only if it accepts records that the stricter one refuses.
+  /// A looser reading gets only records that the stricter one refuses. The reading with more records is used; if it is
+  /// the stricter one, the options of the other are mentioned.
   static void add(Detected one, const AnyDecoder::Reading& reading, std::vector<Detected>& found) {
     const auto& key = one.camera.key;
     const auto stricter = std::find_if(found.begin(), found.end(), [&](const Detected& other) {
@@ -174,7 +174,7 @@ class Listening {
   }
 
   std::string url(const AnyDecoder::Reading& reading) const {
-    const std::string place = transport::udp_url(place_.is_every_one ? "" : place_.host, place_.port);
+    const std::string place = transport::udp_url(place_.is_own_address ? "" : place_.host, place_.port);
     return std::string(reading.scheme->name) + place.substr(place.find(':')) +
            (reading.way.options.empty() ? "" : "?" + reading.way.options);
   }

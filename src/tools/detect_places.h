@@ -13,8 +13,9 @@ namespace trk_bridge::tools {
 /// The place of one socket.
 struct DetectPlace {
   std::uint16_t port = 0;
-  std::string host;           ///< a group or an address of this machine; empty: every address
-  bool is_every_one = false;  ///< `host` is one of all addresses of this machine
+  std::string host;  ///< a group or an address of this machine; empty: every address
+  /// `host` is an address of this machine that stands for "every address": URLs omit it.
+  bool is_own_address = false;
 };
 inline bool operator<(const DetectPlace& a, const DetectPlace& b) {
   return std::tie(a.port, a.host) < std::tie(b.port, b.host);

@@ -43,8 +43,8 @@ struct Range {
 /// A value of a lens that is plotted and printed.
 using Value = std::function<double(const camera::Lens&)>;
 
-/// The radius at which distortion is given, in percent of the radius: half of the chip's width, or 1 mm if the chip is
-/// not known.
+/// The radius (mm) at which distortion is given, in percent of this radius: half of the chip's width, or 1 mm if the
+/// chip is unknown.
 double radius_of(const lens::Table& table) { return table.constants() ? table.constants()->chip_width / 2 : 1; }
 
 Value distortion_at(double radius) {

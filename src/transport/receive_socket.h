@@ -52,10 +52,10 @@ inline constexpr int default_receive_buffer = 8 << 20;
 /// went down.
 bool is_permanent(int error) noexcept;
 
-/// Bound from construction to destruction. Link-local addresses and groups (fe80::1%eth0, ff02::7) are bound while
-/// their interface exists. One thread at a time, except for stop(), granted_buffer(), kernel_drops() and
-/// why_nothing_can_arrive(); reading allocates nothing. For groups and link-local addresses, a separate thread watches
-/// the interfaces.
+/// Bound from construction to destruction. Addresses that exist on each interface separately (fe80::1%eth0, ff02::7)
+/// are bound while their interface exists. One thread at a time, except for stop(), granted_buffer(), kernel_drops()
+/// and why_nothing_can_arrive(); reading allocates nothing. For groups and link-local addresses, a separate thread
+/// watches the interfaces.
 class ReceiveSocket {
  public:
   /// Throws TransportError.

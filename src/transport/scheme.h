@@ -72,7 +72,7 @@ struct Scheme {
 inline constexpr std::array<OptionHelp, 5> form_options{{
     {"format", "words of the protocol separated by commas, as in euler,field_of_view", "Format of what is sent"},
     {"preset", "a name that trk presets lists", "Format of that receiver, instead of format"},
-    {"id", "whole numbers from 0 to 4294967295", "Camera number to send instead of the received one"},
+    {"id", "whole numbers from 0 to 4294967295", "Camera id to send instead of the received one"},
     {"delay", "0 to 1 seconds, or three such numbers separated by commas: for position, rotation and lens",
      "Send the camera as it was this long ago (0)"},
     {"lead", "0 to 0.04 seconds", "Extrapolate the camera at most this far beyond its newest sample (0)"},

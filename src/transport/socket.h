@@ -71,7 +71,8 @@ Sender sender_of(const sockaddr_storage& address) noexcept;
 
 bool is_any(const SocketAddress& address) noexcept;
 bool is_multicast(const SocketAddress& address) noexcept;
-/// Whether the address is link-local, so that its socket is permanently bound to one interface.
+/// Whether the address exists on each interface separately (link-local, or an interface-local group), so that its
+/// socket is permanently bound to one interface.
 bool needs_zone(const SocketAddress& address) noexcept;
 /// The index of its interface; 0: none given.
 unsigned zone_index(const SocketAddress& address) noexcept;

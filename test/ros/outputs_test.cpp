@@ -39,7 +39,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 using ::testing::HasSubstr;
 
-/// Called before the master and everything else is started in them.
+/// Created before the master and all other processes, which run in them.
 const bool has_namespaces = ::unshare(CLONE_NEWNET | CLONE_NEWNS) == 0 &&
                             ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
                             std::system("ip link set lo up") == 0;

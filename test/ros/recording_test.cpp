@@ -8,6 +8,7 @@
 #include "file/take_writer.h"
 #include "fixture.h"
 #include "program.h"
+#include "record_bits.h"
 #include "roslaunch.h"
 #include "temporary_directory.h"
 #include "vectors.h"
@@ -15,13 +16,6 @@
 
 namespace trk_bridge::test {
 namespace {
-
-/// A record's bytes: equal bytes are equal bit for bit.
-template <typename RecordType>
-std::string bits(const RecordType& record) {
-  wire::Buffer buffer;
-  return std::string(wire::to_image(record, {wire::Generation::identified, wire::Abi::lp64, {}}, buffer).value());
-}
 
 /// Whether `part` is contained in `whole` without a gap.
 ::testing::AssertionResult is_run_of(const std::vector<wire::CameraParams>& part,

@@ -27,12 +27,12 @@ inline const trkCameraConstants constants_in_c = [] {
 /// The text of a record, which is exact: two records are equal if their texts are. Bytes cannot be compared, because
 /// the structures have padding.
 inline std::string text_of(const trkCameraParams& params) {
-  std::array<char, trkStringSize> text;
+  std::array<char, trkStringSize> text{};
   trkParamsToString(&params, text.data());
   return text.data();
 }
 inline std::string text_of(const trkCameraConstants& constants) {
-  std::array<char, trkStringSize> text;
+  std::array<char, trkStringSize> text{};
   trkConstantsToString(&constants, text.data());
   return text.data();
 }

@@ -13,7 +13,7 @@ namespace trk_bridge::file {
 
 struct Take {
   /// A line that is missing from the take.
-  struct LeftOut {
+  struct Skipped {
     std::size_t position;  ///< in `params`, of the line behind it
     transport::Fault fault;
   };
@@ -21,7 +21,7 @@ struct Take {
   base::TimeCode time_code;
   wire::CameraConstants constants;
   std::vector<wire::CameraParams> params;
-  std::vector<LeftOut> left_out;  ///< lines: a truncated last one, and with MalformedLines::are_skipped others
+  std::vector<Skipped> skipped;  ///< lines: a truncated last one, and with MalformedLines::are_skipped others
 };
 
 /// Throws transport::TransportError with the reader's message.
@@ -39,7 +39,7 @@ inline Take read_take(const std::string& path, MalformedLines malformed = Malfor
         break;
       case TakeReader::Got::skipped:
       case TakeReader::Got::truncated:
-        take.left_out.push_back({take.params.size(), reader.fault()});
+        take.skipped.push_back({take.params.size(), reader.fault()});
         break;
       case TakeReader::Got::end:
         return take;

@@ -16,6 +16,7 @@
 #include "bag/convert.h"
 #include "error_of.h"
 #include "file/take_writer.h"
+#include "record_bits.h"
 #include "temporary_directory.h"
 #include "trk_bridge/wire/codec.h"
 #include "vectors.h"
@@ -23,12 +24,7 @@
 
 namespace trk_bridge::bag {
 
-/// A record's bytes: equal bytes are equal bit for bit.
-template <typename RecordType>
-std::string bits(const RecordType& record) {
-  wire::Buffer buffer;
-  return std::string(wire::to_image(record, {wire::Generation::identified, wire::Abi::lp64, {}}, buffer).value());
-}
+using test::bits;
 
 inline std::vector<std::string> bits_of(const std::vector<wire::CameraParams>& params) {
   std::vector<std::string> all;

@@ -69,7 +69,7 @@ TEST_F(FromParams, GapsAreReportedAndNotFilled) {
   EXPECT_THAT(err.str(), HasSubstr("6 fields are missing in 2 gaps, the first of 3 after 10002.020000000"));
 }
 
-TEST_F(FromParams, AFieldRateThatContradictsTheStampsIsRefused) {
+TEST_F(FromParams, StampsThatContradictTheDefaultFieldRateNeedTheOption) {
   put_constants();
   put(counted(0, 300), "/crane", 59.94);
   const auto path = bag.closed();
@@ -173,7 +173,7 @@ TEST_F(FromParams, FieldsThatATakeCannotContainAreOmittedAndReported) {
   bad.fov = std::numeric_limits<double>::quiet_NaN();
   bag.put("/crane/params", 10'001, params_message(bad, 10'001));
   EXPECT_EQ(to_take(bag.closed()).params.size(), 2u);
-  EXPECT_THAT(err.str(), HasSubstr("left out: 1 fields, the first at 10001.000000000: field 8 is not finite"));
+  EXPECT_THAT(err.str(), HasSubstr("omitted: 1 fields, the first at 10001.000000000: field 8 is not finite"));
 }
 
 TEST_F(FromParams, ParamsCanBeConvertedToAnotherFormat) {

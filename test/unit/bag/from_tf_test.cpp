@@ -152,7 +152,7 @@ TEST_F(FromTf, FieldsWithoutTransformsAroundThemAreOmitted) {
   put_info(100.1);
   put_info(100.3);
   EXPECT_EQ(to_take(bag.closed(), with_chip()).params.size(), 1u);
-  EXPECT_THAT(err.str(), HasSubstr("left out: 2 fields, the first at 99.500000000: no transforms around its time"));
+  EXPECT_THAT(err.str(), HasSubstr("omitted: 2 fields, the first at 99.500000000: no transforms around its time"));
 }
 
 TEST_F(FromTf, WithoutConstantsTheChipSizeMustBeSet) {

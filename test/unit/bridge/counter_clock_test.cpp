@@ -217,7 +217,7 @@ TEST(CounterClock, AStepOfTheDelayIsFollowedIn10SecondsAndTheRateStays) {
   }
 }
 
-TEST(CounterClock, AfterARestartTheRateIsKept) {
+TEST(CounterClock, ARestartIsFollowedIn10SecondsAndTheRateIsKept) {
   for (const double pause : {0.0, 1.0, 7.3}) {
     for_all_signals(120, [pause](const std::vector<Signal>& signals) {
       Spread later;
@@ -346,7 +346,7 @@ TEST(CounterClock, JitterThatBecomesTenTimesLargerIsNotAStep) {
   }
 }
 
-TEST(CounterClock, WithoutJitterStampsAreWithinTheSmallestGate) {
+TEST(CounterClock, WithoutJitterStampsAreExactToAMicrosecond) {
   Signal even;
   even.deviation = 0;
   even.ppm = 0;

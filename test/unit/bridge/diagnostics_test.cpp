@@ -308,7 +308,7 @@ TEST_F(Diagnostics, RecordsAcceptedDespiteAFaultAreAWarning) {
   expect(Level::ok, "receiving");
   now.source.doubtful = 6;
   expect(Level::warn, "records are accepted despite: wrong checksum");
-  EXPECT_EQ(value("taken in spite of a fault"), "6");
+  EXPECT_EQ(value("accepted despite a fault"), "6");
 }
 
 TEST_F(Diagnostics, NoMarkersSaysWhy) {

@@ -330,7 +330,7 @@ TEST_F(SinkDiagnostics, OnlyGrowthIsAFinding) {
 }
 
 TEST_F(SinkDiagnostics, AnIdThatIsNotSentIsShownAndIsNotAFault) {
-  now.sink.left_out_id = 7;
+  now.sink.unsent_id = 7;
   expect(status(), Level::ok, "id 7 is not sent: the receiver accepts no ids");
 }
 

@@ -120,7 +120,7 @@ TEST_F(OutletWriterTest, AReceiverWithoutIdsIsSentNone) {
   ASSERT_EQ(control.records().size(), 2u);
   EXPECT_EQ(control.constants()[0].id, 0u);
   EXPECT_EQ(control.params()[0].id, 0u);
-  EXPECT_EQ(outlet.statistics().left_out_id, 4u);
+  EXPECT_EQ(outlet.statistics().unsent_id, 4u);
 }
 
 TEST_F(OutletWriterTest, OnlyNewConstantsAreSent) {

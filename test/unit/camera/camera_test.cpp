@@ -19,7 +19,7 @@ using wire::CameraParams;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-const CameraConstants sound_constants{0, 720, 576, 10, 6, 2, 0, 9.59, 7.19, 0, 0};
+const CameraConstants valid_constants{0, 720, 576, 10, 6, 2, 0, 9.59, 7.19, 0, 0};
 
 CameraParams euler_params(double pan, double tilt, double roll) {
   CameraParams params;
@@ -70,9 +70,9 @@ TEST(Formats, EveryMeaningfulFormatRoundTripsACamera) {
 }
 
 TEST(Formats, ThatCannotBeWrittenAreRefused) {
-  expect_error(encode(Camera{}, 0x400, &sound_constants), CameraReason::bad_format);
-  expect_error(encode(Camera{}, 0x80000000, &sound_constants), CameraReason::bad_format);
-  expect_error(encode(Camera{}, wire::field_of_view | wire::vertical | wire::diagonal, &sound_constants),
+  expect_error(encode(Camera{}, 0x400, &valid_constants), CameraReason::bad_format);
+  expect_error(encode(Camera{}, 0x80000000, &valid_constants), CameraReason::bad_format);
+  expect_error(encode(Camera{}, wire::field_of_view | wire::vertical | wire::diagonal, &valid_constants),
                CameraReason::bad_format);
 }
 
@@ -80,9 +80,9 @@ TEST(Formats, WithUnknownBitsOrVerticalAndDiagonalAreRead) {
   CameraParams params = matrix_params();
   params.format = wire::field_of_view | wire::vertical;
   params.fov = 40;
-  const auto vertical = decode_lens(params, &sound_constants);
+  const auto vertical = decode_lens(params, &valid_constants);
   params.format |= wire::diagonal | 0xF0000000;
-  const auto both = decode_lens(params, &sound_constants);
+  const auto both = decode_lens(params, &valid_constants);
   ASSERT_TRUE(vertical && both);
   EXPECT_EQ(both->image_distance, vertical->image_distance);
 }
@@ -247,7 +247,7 @@ TEST(Numbers, AreNeverWrittenAsNegativeZero) {
   Camera camera{Eigen::Isometry3d::Identity(), Lens{10, {-0.0, -0.0}}};
   camera.pose.translation() = Eigen::Vector3d(-0.0, -0.0, 0);
   for (const std::uint32_t mask : test::meaningful_masks()) {
-    const auto params = encode(camera, mask, &sound_constants);
+    const auto params = encode(camera, mask, &valid_constants);
     ASSERT_TRUE(params);
     const auto& e = params->euler;
     for (const double value : {e.x, e.y, e.z, e.pan, e.tilt, e.roll, params->center_x, params->center_y}) {
@@ -268,11 +268,11 @@ TEST(FieldOfView, MustBeAnAngleOrADistance) {
   params.format = wire::field_of_view;
   for (const double angle : {0.0, -30.0, 180.0, 270.0}) {
     params.fov = angle;
-    expect_error(decode_lens(params, &sound_constants), CameraReason::bad_field_of_view);
+    expect_error(decode_lens(params, &valid_constants), CameraReason::bad_field_of_view);
   }
   // Neither of these can be written as an angle and read again.
   for (const double distance : {1e-300, 5e-324}) {
-    expect_error(encode(Camera{Eigen::Isometry3d::Identity(), Lens{distance}}, wire::field_of_view, &sound_constants),
+    expect_error(encode(Camera{Eigen::Isometry3d::Identity(), Lens{distance}}, wire::field_of_view, &valid_constants),
                  CameraReason::bad_field_of_view);
   }
 }
@@ -284,7 +284,7 @@ TEST(Constants, AreNeededOnlyIfTheFormatNeedsThem) {
     params.format = format;
     expect_error(decode_lens(params, nullptr), CameraReason::constants_needed);
     EXPECT_TRUE(decode_pose(params));
-    EXPECT_TRUE(decode(params, &sound_constants));
+    EXPECT_TRUE(decode(params, &valid_constants));
     const Camera camera{Eigen::Isometry3d::Identity(), Lens{10}};
     expect_error(encode(camera, format, nullptr), CameraReason::constants_needed);
   }
@@ -292,7 +292,7 @@ TEST(Constants, AreNeededOnlyIfTheFormatNeedsThem) {
 
 TEST(Constants, ThatAreInvalidAreRefused) {
   const auto with = [](auto field, auto value) {
-    CameraConstants constants = sound_constants;
+    CameraConstants constants = valid_constants;
     constants.*field = value;
     return constants;
   };
@@ -313,7 +313,7 @@ TEST(Constants, ThatAreInvalidAreRefused) {
     params.format = 0;
     EXPECT_TRUE(decode_lens(params, &constants)) << "a format that needs no constants does not check them";
   }
-  EXPECT_TRUE(check(sound_constants));
+  EXPECT_TRUE(check(valid_constants));
 }
 
 TEST(Constants, AreSentWithTheFakeChipOfTheFormat) {
@@ -338,7 +338,7 @@ TEST(FakeChip, OfTheSenderIsUsedIfItIsPositive) {
   CameraParams params = matrix_params();
   params.format = wire::field_of_view | wire::ignore_blank;
   params.fov = 90;
-  CameraConstants constants = sound_constants;
+  CameraConstants constants = valid_constants;
   constants.fake_chip_width = 20;
   constants.fake_chip_height = 15;
   EXPECT_NEAR(decode_lens(params, &constants)->image_distance, 10, 1e-12);

@@ -260,12 +260,12 @@ TEST(Converter, TakesConstants) {
 
 TEST(Converter, KeepsTheConstantsIfNewOnesAreInvalid) {
   Converter converter(wire::field_of_view);
-  CameraConstants unsound = known;
-  unsound.image_width = 0;
-  EXPECT_EQ(converter.use(unsound), ConstantsChange::invalid);
+  CameraConstants invalid = known;
+  invalid.image_width = 0;
+  EXPECT_EQ(converter.use(invalid), ConstantsChange::invalid);
   EXPECT_EQ(converter.incoming(), nullptr);
   EXPECT_EQ(converter.use(known), ConstantsChange::changed);
-  EXPECT_EQ(converter.use(unsound), ConstantsChange::invalid);
+  EXPECT_EQ(converter.use(invalid), ConstantsChange::invalid);
   ASSERT_NE(converter.incoming(), nullptr);
   EXPECT_EQ(*converter.incoming(), known);
   EXPECT_TRUE(converter.convert(awkward(0)).params);

@@ -99,7 +99,7 @@ TEST_F(TestCardCanvas, LabelsAvoidDrawnParts) {
   EXPECT_GT(cv::countNonZero(picture_ != before), 50) << "above the line";
   const cv::Mat labelled = picture_.clone();
   EXPECT_EQ(cv::countNonZero(picture_.rowRange(110, 240) != before.rowRange(110, 240)), 0) << "not on it";
-  // Nothing remains visible on either side, above or below.
+  // Without a free place above or below, no label is drawn.
   cv::Mat full(240, 320, CV_8UC1, cv::Scalar(bright));
   Canvas(full, ground).label("4 8 2", {160, 110}, 7, ground);
   EXPECT_EQ(cv::countNonZero(full != cv::Mat(240, 320, CV_8UC1, cv::Scalar(bright))), 0);

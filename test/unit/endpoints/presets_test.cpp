@@ -68,7 +68,7 @@ TEST(Presets, OfAnotherSchemeSetItsOptions) {
   // Only zcam needs no lens table.
   EXPECT_TRUE(parse_sink("freed://127.0.0.1:1?preset=freed_zcam"));
   EXPECT_TRUE(parse_sink("freed://127.0.0.1:1", "freed_zcam"));
-  EXPECT_FALSE(parse_sink("freed://127.0.0.1:1?preset=freed_vizrt", "freed_zcam")) << "the URL's id is used";
+  EXPECT_FALSE(parse_sink("freed://127.0.0.1:1?preset=freed_vizrt", "freed_zcam")) << "the preset of the URL is used";
   EXPECT_FALSE(parse_sink("freed://127.0.0.1:1?preset=freed_zcam&profile=sony")) << "the URL's option is used";
   EXPECT_TRUE(parse_sink("udp://127.0.0.1:1?preset=disguise", "freed_zcam"));
   for (const auto& refused :

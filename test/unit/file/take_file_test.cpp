@@ -131,13 +131,13 @@ TEST_F(ReadTake, ATruncatedLastLineIsIgnoredForAnyLength) {
     const bool is_whole = size == text.size();
     ASSERT_EQ(take.params.size(), is_whole ? 2U : 1U) << size;
     EXPECT_EQ(take.params.back().counter, is_whole ? 1001U : 1000U) << size;
-    ASSERT_EQ(take.left_out.size(), is_whole || size == second ? 0U : 1U) << size;
-    if (take.left_out.empty()) continue;
-    EXPECT_THAT(describe(take.left_out[0].fault), StartsWith("line 5 is truncated: "));
-    EXPECT_EQ(take.left_out[0].fault.line(), 5U);
+    ASSERT_EQ(take.skipped.size(), is_whole || size == second ? 0U : 1U) << size;
+    if (take.skipped.empty()) continue;
+    EXPECT_THAT(describe(take.skipped[0].fault), StartsWith("line 5 is truncated: "));
+    EXPECT_EQ(take.skipped[0].fault.line(), 5U);
   }
   write_text(path, text.substr(0, second + 20) + std::string(100, '\0'));
-  EXPECT_EQ(read_take(path).left_out.size(), 1U) << "as after a power failure";
+  EXPECT_EQ(read_take(path).skipped.size(), 1U) << "as after a power failure";
   write_text(path, text.substr(0, second + 20) + "\n");
   EXPECT_THAT(error_of(path), StartsWith(path + ":5: ")) << "a line with a line feed is complete";
   EXPECT_THAT(error_of_text(std::string(head).substr(0, 40)), StartsWith(path + ":3: ")) << "a truncated head";
@@ -151,7 +151,7 @@ TEST_F(ReadTake, MalformedLinesAreSkippedIfRequested) {
   EXPECT_EQ(take.params.size(), 3U);
   std::vector<std::string> texts;
   std::vector<std::size_t> positions;
-  for (const auto& [position, fault] : take.left_out) {
+  for (const auto& [position, fault] : take.skipped) {
     texts.push_back(describe(fault));
     positions.push_back(position);
   }

@@ -103,7 +103,7 @@ TEST(FreeDDecoder, APanPast180DegreesIsContinuous) {
     const double expected = i == 11 ? 0 : 2;
     EXPECT_NEAR(step.angle() * 180 / M_PI, expected, 1e-5) << pans[i - 1] << " to " << pans[i];
   }
-  EXPECT_EQ(params_of(message_of(190)).euler.pan, -190) << "the sender's counter is kept";
+  EXPECT_EQ(params_of(message_of(190)).euler.pan, -190) << "pan beyond 180 degrees is kept as sent";
 }
 
 TEST(FreeDDecoder, FaultsNameTheProblem) {

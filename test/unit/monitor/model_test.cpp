@@ -130,7 +130,7 @@ TEST_F(ModelTest, SilenceIsMoreThanASecondAndThreeIntervals) {
   EXPECT_TRUE(state(milliseconds(10'100)).cameras.front().latest->is_silent);
 }
 
-TEST_F(ModelTest, ReportsPoseAndLensInCanonicalUnits) {
+TEST_F(ModelTest, ReportsPoseAndLensInCanonicalForm) {
   auto params = test::params(1);
   params.format = wire::euler | wire::field_of_view;
   params.fov = 40;

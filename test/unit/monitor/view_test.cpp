@@ -258,7 +258,7 @@ TEST(View, EncoderCountsWithoutALens) {
   camera.latest->doubt = "wrong checksum";
   const std::string text = joined(text_of(state, {200, 60}));
   EXPECT_THAT(text, HasSubstr("  no lens            zoom encoder 74565 focus encoder -9   wrong checksum"));
-  EXPECT_THAT(text, HasSubstr("taken in spite of a fault 2"));
+  EXPECT_THAT(text, HasSubstr("accepted despite a fault 2"));
   EXPECT_THAT(text, Not(HasSubstr("counter"))) << "there is none";
   EXPECT_THAT(text, Not(HasSubstr("CONSTANTS"))) << "they would be useless";
 }

@@ -363,7 +363,7 @@ TEST(OpenTrackIoDecoder, TenThousandMutatedPackets) {
   const std::vector<std::uint8_t> cbor_bytes = Json::to_cbor(full_sample());
   const std::string cbor(cbor_bytes.begin(), cbor_bytes.end());
   PacketDecoder decoder(false, 37);
-  int sound = 0, unsound = 0;
+  int valid = 0, invalid = 0;
   for (int i = 0; i < 10'000; ++i) {
     const Encoding encoding = i % 2 == 0 ? Encoding::json : Encoding::cbor;
     std::string bytes = encoding == Encoding::json ? json : cbor;
@@ -390,19 +390,19 @@ TEST(OpenTrackIoDecoder, TenThousandMutatedPackets) {
     if (!with_header) bytes = packet_of(bytes.substr(0, 3000), encoding, static_cast<unsigned>(i));
     const test::ExactCopy exact(bytes);
     const Given all = given(decoder, exact.view());
-    unsound += static_cast<int>(all.faults.size());
+    invalid += static_cast<int>(all.faults.size());
     for (const auto& sample : all.samples) {
       const auto* params = std::get_if<wire::CameraParams>(&sample.record);
       if (params == nullptr) continue;
-      ++sound;
+      ++valid;
       wire::for_each_euler_field([](const wire::Field& f, double v) { EXPECT_TRUE(std::isfinite(v)) << f.name; },
                                  params->euler);
       wire::for_each_lens_field([](const wire::Field& f, double v) { EXPECT_TRUE(std::isfinite(v)) << f.name; },
                                 *params);
     }
   }
-  EXPECT_GT(sound, 500) << "digits and names that changed";
-  EXPECT_GT(unsound, 3000);
+  EXPECT_GT(valid, 500) << "digits and names that changed";
+  EXPECT_GT(invalid, 3000);
   EXPECT_EQ(given(decoder, packet_of(json, Encoding::json, 54321)).params(), given_of(full_sample()).params());
 }
 

@@ -128,7 +128,7 @@ TEST(OpenTrackIo, BothGroupsAreReceivedAndAMessageOfBothIsCountedOnce) {
     EXPECT_EQ(test::next_counter(*source), i);
   }
   EXPECT_EQ(source->receive(reception, std::chrono::nanoseconds::zero()), transport::Event::idle);
-  // The identical packet on both ways.
+  // The identical packet through both groups.
   const test::PlainSocket tracker;
   const in_addr loopback{htonl(INADDR_LOOPBACK)};
   ASSERT_EQ(::setsockopt(tracker.fd(), IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof loopback), 0);

@@ -165,14 +165,14 @@ TEST(ParameterReader, NoRemedyForWhatIsMissing) {
 }
 
 TEST(ParameterReader, IdsOf32Bits) {
-  const std::pair<XmlRpcValue, std::uint32_t> sound[] = {
+  const std::pair<XmlRpcValue, std::uint32_t> valid[] = {
       {0, 0},
       {2147483647, 2147483647},
       {"7", 7},
       {"4294967295", 4294967295},
       {4294967295.0, 4294967295},  // what rosrun makes of _id:=4294967295
   };
-  for (const auto& [value, id] : sound) {
+  for (const auto& [value, id] : valid) {
     XmlRpcValue tree;
     tree["id"] = value;
     ParameterReader reader(tree);

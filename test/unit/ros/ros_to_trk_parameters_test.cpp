@@ -159,7 +159,7 @@ TEST(ReadOutgoing, Defaults) {
   EXPECT_TRUE(p.form.sends_id);
 }
 
-TEST(ReadOutgoing, OneSinkIsATextAndSeveralAreAList) {
+TEST(ReadOutgoing, OneSinkMayBeATextAndSeveralAreAList) {
   XmlRpcValue tree;
   tree["sinks"] = "shm:7";
   EXPECT_THAT(read_ros_to_trk_parameters(tree, "c").sinks, ElementsAre(has_url("shm:7")));

@@ -185,7 +185,7 @@ TEST(Read, ARuleIsNotCheckedOnFaultyInput) {
   tree["studio_frame"] = 3;
   tree["camera_frame"] = "studio";
   EXPECT_THAT(lines_of(tree), ElementsAre(HasSubstr("~studio_frame = 3: must be text")))
-      << "the name studio of the studio frame is not written there";
+      << "camera_frame is not compared with the default of the faulty studio_frame";
 
   tree = two_cameras();
   tree["cameras"]["left"]["id"] = -1;

@@ -3,14 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <chrono>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include <nlohmann/json.hpp>
 
@@ -18,6 +15,7 @@
 #include "freed_messages.h"
 #include "network_namespace.h"
 #include "program.h"
+#include "repeating.h"
 #include "reserved_port.h"
 #include "trk_bridge/endpoints/endpoints.h"
 #include "trk_bridge/wire/codec.h"
@@ -32,28 +30,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-
-/// Repeats an action a hundred times a second until it is destroyed.
-class Repeatedly {
- public:
-  explicit Repeatedly(std::function<void(std::uint64_t round)> act)
-      : thread_([this, act = std::move(act)] {
-          for (std::uint64_t round = 0; !ends_; ++round) {
-            act(round);
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-          }
-        }) {}
-  ~Repeatedly() {
-    ends_ = true;
-    thread_.join();
-  }
-  Repeatedly(const Repeatedly&) = delete;
-  Repeatedly& operator=(const Repeatedly&) = delete;
-
- private:
-  std::atomic<bool> ends_{false};
-  std::thread thread_;
-};
 
 struct Result {
   std::map<std::string, nlohmann::json> by_source;
@@ -83,7 +59,7 @@ std::string trk_datagram(const Record& record) {
 TEST(Detect, ReportsWhoSendsWhatToAPort) {
   const test::ReservedPort port;
   const test::PlainSocket tracker, head, other;
-  const Repeatedly send([&](std::uint64_t round) {
+  const test::Repeating send(100, [&, round = std::uint64_t{0}]() mutable {
     const auto to = [&](const test::PlainSocket& from, const std::string& datagram) {
       from.send(datagram, "127.0.0.1", port.number());
     };
@@ -93,6 +69,7 @@ TEST(Detect, ReportsWhoSendsWhatToAPort) {
     message.back() = '\0';
     to(head, message);
     to(other, "hello");
+    ++round;
   });
   const Result result = run({port.text()});
   EXPECT_EQ(result.exit_code, 0);
@@ -125,14 +102,16 @@ TEST(Detect, ReportsWhoSendsWhatToAPort) {
   EXPECT_THAT(result.err, Not(HasSubstr("Free-D with a fault")));
 }
 
-/// Its checksum is right in one of `of` messages, or wrong in one of them.
+/// What is detected if one of `of` messages has a right checksum and the others a wrong one; with `right` false, the
+/// reverse. By the options of the source.
 std::map<std::string, nlohmann::json> heads_found(std::uint64_t of, bool right) {
   const test::ReservedPort port;
   const test::PlainSocket head;
-  const Repeatedly send([&](std::uint64_t round) {
+  const test::Repeating send(100, [&, round = std::uint64_t{0}]() mutable {
     std::string message = test::message_of(30, -5, 0, 7);
     if ((round % of == 0) != right) message.back() = static_cast<char>(message.back() + 1);
     head.send(message, "127.0.0.1", port.number());
+    ++round;
   });
   std::map<std::string, nlohmann::json> found;
   for (const auto& [source, camera] : run({port.text()}).by_source)
@@ -155,7 +134,7 @@ TEST(Detect, TheReadingThatAcceptsMoreIsUsed) {
 TEST(Detect, AMessageThatCannotBeReadIsNamedWithItsProtocol) {
   const test::ReservedPort port;
   const test::PlainSocket head;
-  const Repeatedly send([&](std::uint64_t) {
+  const test::Repeating send(100, [&] {
     std::string message = test::message_of(30, -5, 0, 7);
     message.front() = '\xD2';
     head.send(message, "127.0.0.1", port.number());
@@ -176,9 +155,10 @@ TEST(Detect, FindsGroupsAmongTheUsualPorts) {
   const test::NetworkNamespace::Stay stay(*network);
   const auto group = endpoints::open_sink("opentrackio://?source=200&interface=127.0.0.1");
   const auto unicast = endpoints::open_sink("opentrackio://127.0.0.1");
-  const Repeatedly send([&](std::uint64_t round) {
+  const test::Repeating send(100, [&, round = std::uint64_t{0}]() mutable {
     (void)group->write(test::params(round, 200));
     (void)unicast->write(test::params(round, 4));
+    ++round;
   });
   const Result result = run({});
   EXPECT_EQ(result.exit_code, 0);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-// Names and addresses that move to another interface, and other interfaces that come and go.
+// Names and addresses that move to another interface, and other interfaces that are added and removed.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace trk_bridge::trk {
 namespace {
 
-/// The cable from w0 to w1, whose far end has the addresses of v1.
+/// A second cable, from w0 to w1, without addresses.
 void plug_in_another(const Network& n) {
   n.near.ip("link add w0 type veth peer name w1 netns " + n.far.path() +
             "\nlink set w0 addrgenmode none\nlink set w0 up");

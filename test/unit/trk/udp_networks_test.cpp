@@ -99,16 +99,15 @@ const NetworkEvent events[] = {
 
 /// Ends the event and waits until `works`; prints how long that took, since the first and since the last command.
 template <typename Works>
-void expect_recovery(const std::string& what, const Way& way, const std::string& happening,
+void expect_recovery(const std::string& what, const Way& way, const std::string& event,
                      const std::function<void()>& ends, const Works& make_works) {
   const auto begin = steady_clock::now();
   ends();
   const auto commands = std::chrono::duration_cast<milliseconds>(steady_clock::now() - begin);
   const auto recovery = time_until(make_works());
   ASSERT_TRUE(recovery) << "never recovered";
-  std::printf("[ RECOVERY ] %s %s after %s: %ld ms, %ld ms with the commands\n", what.c_str(), way.name,
-              happening.c_str(), static_cast<long>(recovery->count()),
-              static_cast<long>((commands + *recovery).count()));
+  std::printf("[ RECOVERY ] %s %s after %s: %ld ms, %ld ms with the commands\n", what.c_str(), way.name, event.c_str(),
+              static_cast<long>(recovery->count()), static_cast<long>((commands + *recovery).count()));
 }
 
 using Case = std::tuple<NetworkEvent, Way>;
@@ -127,7 +126,7 @@ TEST_P(SourceRecovery, RecordsAreReceivedAgain) {
   const auto source = source_at(way().url);
   if (event().is_there_before) {
     const FarSender tracker(*network, way().to);
-    ASSERT_TRUE(time_until([&] { return gets_one(*source, tracker); })) << "before anything happens";
+    ASSERT_TRUE(time_until([&] { return gets_one(*source, tracker); })) << "before the event";
     ASSERT_THAT(waiting_for(*source), IsEmpty());
   }
   event().apply(*network);
@@ -149,7 +148,7 @@ TEST_P(SinkRecovery, RecordsArriveAgain) {
   const auto sink = sink_to(way().url);
   if (event().is_there_before) {
     const FarReceiver receiver(*network);
-    ASSERT_TRUE(time_until([&] { return sends_one(*sink, receiver); })) << "before anything happens";
+    ASSERT_TRUE(time_until([&] { return sends_one(*sink, receiver); })) << "before the event";
   }
   event().apply(*network);
   std::optional<FarReceiver> receiver;
