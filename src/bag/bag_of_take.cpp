@@ -5,10 +5,10 @@
 
 #include <tf2_msgs/TFMessage.h>
 
+#include "base/number_text.h"
 #include "base/time_text.h"
 #include "bridge/camera_pipeline.h"
 #include "bridge/stamper.h"
-#include "cli/number_text.h"
 #include "convert.h"
 #include "file/part_file.h"
 #include "file/take.h"
@@ -127,7 +127,7 @@ class Recording {
  public:
   Recording(file::PartFile& file, const TakeToBagOptions& options, std::optional<std::int64_t> zero)
       : writer_(file, options.compression), header_{{"callerid", "/" + options.camera + "/trk_to_ros"}} {
-    header_[field_rate_key] = cli::number_text(options.field_rate);
+    header_[field_rate_key] = base::number_text(options.field_rate);
     if (zero) header_[time_code_zero_key] = std::to_string(*zero);
     static_transforms_ = connect<tf2_msgs::TFMessage>("/tf_static", "1");
     constants_ = connect<trk_bridge::CameraConstants>(topic_of(options.camera, "constants"), "1");
@@ -254,7 +254,7 @@ void bag_of_take(const std::string& take_path, const std::string& bag_path, cons
     report(camera.statistics(), err);
     err << "trk: " << bag_path << ": " << camera.statistics().sequence.accepted << " fields of camera "
         << options.camera << ", from " << base::seconds_text(schedule.at(0)) << " at "
-        << cli::number_text(options.field_rate) << " fields a second\n";
+        << base::number_text(options.field_rate) << " fields a second\n";
   } catch (const BagError& error) {
     throw BagError(take_path + ": " + error.what());
   } catch (const std::system_error& error) {

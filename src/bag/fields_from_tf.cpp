@@ -12,8 +12,8 @@
 #include <tf2_msgs/TFMessage.h>
 #include <trk_bridge/CameraConstants.h>
 
+#include "base/number_text.h"
 #include "bridge/camera_info.h"
-#include "cli/number_text.h"
 #include "fields.h"
 #include "ros/camera_info.h"
 #include "trk_bridge/ros/frames.h"
@@ -175,8 +175,8 @@ void use_chip_options(Survey& survey, const BagToTakeOptions& options) {
   constants.chip_width = *options.chip_width;
   constants.chip_height = *options.chip_height;
   if (!camera::check(constants)) {
-    throw BagError("a chip of " + cli::number_text(constants.chip_width) + " x " +
-                   cli::number_text(constants.chip_height) + " mm (--chip-width, --chip-height) and an image of " +
+    throw BagError("a chip of " + base::number_text(constants.chip_width) + " x " +
+                   base::number_text(constants.chip_height) + " mm (--chip-width, --chip-height) and an image of " +
                    std::to_string(info.width) + " x " + std::to_string(info.height) +
                    " pixels (camera_info) describe no picture");
   }

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 #include <ostream>
 
-#include "cli/number_text.h"
+#include "base/number_text.h"
 #include "fields.h"
 #include "file/part_file.h"
 #include "file/take_writer.h"
@@ -41,7 +41,7 @@ class TakeOfFields {
     check_written(path_, writer_.close());
     err << "trk: " << path_ << ": " << series_->count() << " fields of " << topic()
         << (is_from_params() ? "" : " and tf") << ", from " << base::to_string(code_) << " at "
-        << cli::number_text(rate_) << " fields a second\n";
+        << base::number_text(rate_) << " fields a second\n";
   }
 
   void discard() noexcept { writer_.discard(); }

@@ -8,9 +8,9 @@
 
 #include <trk_bridge/TimeCode.h>
 
+#include "base/number_text.h"
 #include "base/time_text.h"
 #include "bridge/diagnostic_text.h"
-#include "cli/number_text.h"
 #include "reader.h"
 #include "trk_bridge/base/sequence.h"
 #include "trk_bridge/ros/messages.h"
@@ -111,8 +111,8 @@ std::optional<double> FieldSeries::measured_rate() const {
 
 void check_rate(double rate, std::optional<double> option, std::optional<double> measured, std::ostream& err) {
   if (!measured || !disagree(rate, *measured)) return;
-  const std::string found = "the stamps give " + cli::number_text(std::round(*measured * 1000) / 1000) +
-                            " fields a second, not " + cli::number_text(rate);
+  const std::string found = "the stamps give " + base::number_text(std::round(*measured * 1000) / 1000) +
+                            " fields a second, not " + base::number_text(rate);
   if (!option) throw BagError(found + ": set --field-rate HZ");
   err << "trk: " << found << '\n';
 }

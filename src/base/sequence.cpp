@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "number_text.h"
+
 namespace trk_bridge::base {
 
 namespace {
@@ -46,7 +48,7 @@ std::uint64_t at_least_one(double counts) noexcept {
 
 double checked(double field_rate) {
   if (!is_rate(field_rate)) {
-    throw std::invalid_argument("field_rate = " + std::to_string(field_rate) +
+    throw std::invalid_argument("field_rate = " + number_text(field_rate) +
                                 ": allowed is more than 0 Hz and at most 1000000 Hz");
   }
   return field_rate;

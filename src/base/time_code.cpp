@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "number_text.h"
+
 namespace trk_bridge::base {
 namespace {
 
@@ -49,7 +51,7 @@ tl::expected<Counting, std::string> counting_of(double rate, bool drop_frame) {
   if (!drop_frame) return counting;
   const bool is_slow = counting.exact_second(rate) < static_cast<long double>(counting.second);
   if ((counting.second != 60 && counting.second != 120) || !is_slow) {
-    return tl::unexpected("there is no drop-frame time code of " + std::to_string(rate) +
+    return tl::unexpected("there is no drop-frame time code of " + number_text(rate) +
                           " Hz: allowed are 29.97, 59.94 and 119.88");
   }
   counting.dropped = counting.second / 15;
@@ -159,7 +161,7 @@ tl::expected<TimeCode, std::string> time_code_after(const TimeCode& code, double
 tl::expected<TimeCode, std::string> time_code_at(std::int64_t nanoseconds, double field_rate, bool drop_frame) {
   const auto refuse = [&](const std::string& why) {
     return tl::unexpected("no time code expresses " + std::to_string(nanoseconds) + " ns after midnight at " +
-                          std::to_string(field_rate) + " fields a second: " + why);
+                          number_text(field_rate) + " fields a second: " + why);
   };
   if (nanoseconds < 0) return refuse("it is before midnight");
   if (!(field_rate >= 1 && field_rate <= 1e6)) return refuse("rates are 1 to 1000000 Hz");

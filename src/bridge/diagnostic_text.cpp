@@ -1,27 +1,15 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 #include "diagnostic_text.h"
 
-#include <cstdio>
+#include "base/number_text.h"
 
 namespace trk_bridge::bridge {
 
-std::string duration_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f s", seconds);
-  return text;
-}
+std::string duration_text(double seconds) { return base::fixed_text(seconds, 1) + " s"; }
 
-std::string two_decimals(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
+std::string two_decimals(double value) { return base::fixed_text(value, 2); }
 
-std::string pixels_text(double pixels) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", pixels);
-  return text;
-}
+std::string pixels_text(double pixels) { return base::fixed_text(pixels, 3); }
 
 std::string age_text(bool ever, std::int64_t then, std::int64_t now) {
   return ever ? two_decimals(seconds_between(then, now)) : std::string("never");

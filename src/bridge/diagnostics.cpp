@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/number_text.h"
 #include "diagnostic_text.h"
 #include "trk_bridge/wire/format.h"
 
@@ -65,11 +66,7 @@ std::string stamp_text(const CameraStatistics& camera) {
   return "";
 }
 
-std::string milliseconds_text(double nanoseconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", nanoseconds / 1e6);
-  return text;
-}
+std::string milliseconds_text(double nanoseconds) { return base::fixed_text(nanoseconds / 1e6, 3); }
 
 /// "37.0 s ahead of", "2.1 s behind".
 std::string offset_text(std::int64_t behind) {
@@ -269,7 +266,7 @@ void add_stamp_values(Status& status, const CameraStatistics& camera) {
   const StandardRate* standard = standard_rate(rate);
   const bool by_counter = camera.stamp_state == StampState::counter;
   status.add("stamps", camera.sequence.accepted > 0 ? stamp_text(camera) : std::string("none yet"));
-  status.add("counter rate (Hz)", rate > 0 ? std::to_string(rate) : std::string("none yet"));
+  status.add("counter rate (Hz)", rate > 0 ? base::fixed_text(rate, 6) : std::string("none yet"));
   status.add("standard rate (Hz)", standard != nullptr ? standard->name : "none");
   status.add("off standard rate (ppm)",
              standard != nullptr ? two_decimals((rate / standard->rate - 1) * 1e6) : std::string("none"));
@@ -279,8 +276,9 @@ void add_stamp_values(Status& status, const CameraStatistics& camera) {
   status.add("delay steps", rhythm.steps);
   status.add("counter restarts", rhythm.restarts);
   status.add("rate changes", rhythm.rate_changes);
-  status.add("sender's time behind (s)",
-             camera.source_behind ? std::to_string(seconds_between(0, *camera.source_behind)) : std::string("none"));
+  status.add("sender's time behind (s)", camera.source_behind
+                                             ? base::fixed_text(seconds_between(0, *camera.source_behind), 6)
+                                             : std::string("none"));
 }
 
 }  // namespace
@@ -332,7 +330,7 @@ void fill(Status& status, const std::vector<Finding>& found, const CameraReport&
   status.add("dropped", camera.dropped);
   status.add("camera_info", camera_info_text(camera));
   status.add("lens fit residual (px)",
-             camera.has_camera_info ? std::to_string(camera.fit_residual) : std::string("none"));
+             camera.has_camera_info ? base::fixed_text(camera.fit_residual, 6) : std::string("none"));
   add_stamp_values(status, camera);
   status.add("stamps held", camera.held_stamps);
   status.add("clock steps back", camera.clock_steps);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/number_text.h"
 #include "base/time_text.h"
 #include "diagnostic_text.h"
 #include "diagnostics.h"
@@ -133,11 +134,7 @@ struct Timing {
   double age;     // ms, mean
 };
 
-std::string seconds_of(std::int64_t nanoseconds) {
-  std::ostringstream text;
-  text << seconds_between(0, nanoseconds);
-  return text.str();
-}
+std::string seconds_of(std::int64_t nanoseconds) { return base::general_text(seconds_between(0, nanoseconds)); }
 
 std::string delay_text(const transport::Delay& delay) {
   if (delay == transport::Delay{delay.position, delay.position, delay.position}) return seconds_of(delay.position);

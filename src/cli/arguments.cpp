@@ -2,17 +2,19 @@
 #include "arguments.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <exception>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "base/nearest.h"
+#include "base/number_text.h"
 #include "base/process.h"
 #include "endpoints/schemes.h"
-#include "number_text.h"
 #include "option_text.h"
 #include "transport/scheme.h"
 #include "trk_bridge/wire/format.h"
@@ -85,15 +87,15 @@ Check whole_number(std::uint64_t least, std::uint64_t most) {
     if (transport::whole_number(text, least, most)) return std::string();
     const bool is_limited = most != std::numeric_limits<std::uint64_t>::max();
     return quoted(text) + ": must be a whole number " +
-           (is_limited ? "from " + number_text(least) + " to " + number_text(most)
-                       : "of at least " + number_text(least));
+           (is_limited ? "from " + base::number_text(least) + " to " + base::number_text(most)
+                       : "of at least " + base::number_text(least));
   };
 }
 
 Check number(double least, double most) {
   return [=](const std::string& text) {
     if (transport::real_number(text, least, most)) return std::string();
-    return quoted(text) + ": must be a number from " + number_text(least) + " to " + number_text(most);
+    return quoted(text) + ": must be a number from " + base::number_text(least) + " to " + base::number_text(most);
   };
 }
 
@@ -138,7 +140,9 @@ std::string is_svg(const std::string& path) {
 void write_whole_file(const std::string& path, const std::string& text) {
   std::ofstream file(path);
   file << text;
-  if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
+  if (!file.flush()) {
+    throw std::runtime_error(path + ": cannot be written: " + std::generic_category().message(errno));
+  }
 }
 
 ExitCode run_program(CLI::App& app, int argc, const char* const* argv, const std::function<ExitCode()>& run) {

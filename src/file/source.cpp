@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/number_text.h"
 #include "scheme.h"
 #include "take.h"
 #include "transport/counted_source.h"
@@ -265,11 +266,11 @@ std::unique_ptr<Source> open_source(const SourceSettings& settings, double field
     throw TransportError("file " + settings.path + ": " + reason);
   };
   if (!(rate > 0 && rate <= highest_rate)) {
-    refuse("rate=" + std::to_string(rate) + ": fields a second, more than 0 and at most " +
-           std::to_string(highest_rate));
+    refuse("rate=" + base::number_text(rate) + ": fields a second, more than 0 and at most " +
+           base::number_text(highest_rate));
   }
   if (!std::isfinite(settings.speed) || settings.speed < 0) {
-    refuse("speed=" + std::to_string(settings.speed) + ": 0 (as fast as possible) or more");
+    refuse("speed=" + base::number_text(settings.speed) + ": 0 (as fast as possible) or more");
   }
   if (settings.date && std::abs(*settings.date) > latest_date) {
     refuse("date: " + std::to_string(*settings.date) +

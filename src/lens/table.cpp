@@ -8,13 +8,16 @@
 #include <sstream>
 #include <utility>
 
+#include "base/number_text.h"
 #include "base/yaml_text.h"
 #include "trk_bridge/camera/image.h"
 #include "trk_bridge/wire/format.h"
+#include "wire/number.h"
 
 namespace trk_bridge::lens {
 namespace {
 
+using base::general_text;
 using base::YamlFault;
 using base::YamlValue;
 
@@ -33,20 +36,15 @@ tl::unexpected<YamlFault> fault(const YAML::Mark& mark, std::string what) {
   return tl::unexpected(YamlFault{mark, std::move(what)});
 }
 
-std::string text_of(double number) {
-  std::ostringstream text;
-  text << number;
-  return text.str();
-}
-
 Read<double> number_of(const YamlValue& value) {
   double number = 0;
-  if (!value.node.IsScalar() || !YAML::convert<double>::decode(value.node, number) || !std::isfinite(number)) {
+  // yaml-cpp would read it in the program's locale.
+  if (!value.node.IsScalar() || wire::read_number(value.node.Scalar(), number)) {
     return fault(value.mark, value.key + ": must be a number");
   }
   if (std::abs(number) > largest) {
-    return fault(value.mark,
-                 value.key + ": the magnitude must not be more than " + text_of(largest) + ", is " + text_of(number));
+    return fault(value.mark, value.key + ": the magnitude must not be more than " + general_text(largest) + ", is " +
+                                 general_text(number));
   }
   return number;
 }
@@ -60,9 +58,9 @@ Read<double> number_or(const YAML::Node& map, const std::string& key, double oth
 Read<double> positive(const YAML::Node& map, const std::string& key) {
   const auto value = base::yaml_value(map, key);
   auto number = number_of(value);
-  if (number && *number <= 0) return fault(value.mark, key + ": must be more than 0, is " + text_of(*number));
+  if (number && *number <= 0) return fault(value.mark, key + ": must be more than 0, is " + general_text(*number));
   if (number && *number < smallest) {
-    return fault(value.mark, key + ": must be at least " + text_of(smallest) + ", is " + text_of(*number));
+    return fault(value.mark, key + ": must be at least " + general_text(smallest) + ", is " + general_text(*number));
   }
   return number;
 }
@@ -82,7 +80,7 @@ Read<wire::CameraConstants> constants_of(const YamlValue& value) {
     if (!number) return tl::unexpected(number.error());
     if (*number < 0 || *number > 100000 || *number != std::floor(*number)) {
       return fault(base::yaml_value(value.node, key).mark,
-                   std::string(key) + ": must be whole pixels from 0 to 100000, is " + text_of(*number));
+                   std::string(key) + ": must be whole pixels from 0 to 100000, is " + general_text(*number));
     }
     *to = static_cast<std::int32_t>(*number);
   }
@@ -109,7 +107,8 @@ Read<double> image_distance_of(const YAML::Node& row, const std::optional<wire::
   auto degrees = positive(row, "field_of_view");
   if (!degrees) return degrees;
   if (*degrees >= 180) {
-    return fault(angle.mark, "field_of_view: must be more than 0 and less than 180 degrees, is " + text_of(*degrees));
+    return fault(angle.mark,
+                 "field_of_view: must be more than 0 and less than 180 degrees, is " + general_text(*degrees));
   }
   if (!constants) return fault(angle.mark, "field_of_view: needs constants with the chip width");
   return constants->chip_width / 2 / std::tan(*degrees * M_PI / 360);
@@ -138,7 +137,7 @@ Read<Point> point_of(const YAML::Node& row, const std::optional<wire::CameraCons
   if (constants) {
     const double reach = camera::image_reach(point.lens, camera::raster_of(*constants));
     if (!(camera::monotonic_radius(point.lens) >= reach)) {
-      return fault(row.Mark(), "k1, k2 fold the image within its " + text_of(reach) + " mm from the optical axis");
+      return fault(row.Mark(), "k1, k2 fold the image within its " + general_text(reach) + " mm from the optical axis");
     }
   }
   return point;
@@ -171,20 +170,20 @@ Read<std::vector<Point>> points_of(const YamlValue& rows, const std::optional<wi
     }
     if (zooms != 0 && point->at.zoom != points[points.size() % zooms].at.zoom) {
       return fault(row.Mark(),
-                   "zoom " + text_of(point->at.zoom) + ": every focus must have the same zooms as the first");
+                   "zoom " + general_text(point->at.zoom) + ": every focus must have the same zooms as the first");
     }
     if (!begins_focus) {
       const Point& before = points.back();
       if (!(point->at.zoom > before.at.zoom)) {
-        return fault(row.Mark(), "zoom " + text_of(point->at.zoom) + ": must be more than that of the row before, " +
-                                     text_of(before.at.zoom));
+        return fault(row.Mark(), "zoom " + general_text(point->at.zoom) +
+                                     ": must be more than that of the row before, " + general_text(before.at.zoom));
       }
       if (point->at.zoom - before.at.zoom < least_step) {
-        return fault(row.Mark(), "zoom " + text_of(point->at.zoom) + ": must be at least " + text_of(least_step) +
-                                     " more than that of the row before");
+        return fault(row.Mark(), "zoom " + general_text(point->at.zoom) + ": must be at least " +
+                                     general_text(least_step) + " more than that of the row before");
       }
       if (!is_monotonic_step(before.lens.image_distance, point->lens.image_distance, sign)) {
-        return fault(row.Mark(), "zoom " + text_of(point->at.zoom) +
+        return fault(row.Mark(), "zoom " + general_text(point->at.zoom) +
                                      ": the focal length must rise with zoom, or fall, " + "in all rows alike");
       }
     }
@@ -210,11 +209,11 @@ Read<std::vector<FocusPoint>> focus_of(const YamlValue& rows) {
     const auto distance = positive(row, "distance");
     if (!distance) return tl::unexpected(distance.error());
     if (!all.empty() && !(*count > all.back().count)) {
-      return fault(row.Mark(), "count " + text_of(*count) + ": must be more than that of the row before");
+      return fault(row.Mark(), "count " + general_text(*count) + ": must be more than that of the row before");
     }
     if (!all.empty() && !is_monotonic_step(all.back().distance, *distance, sign)) {
       return fault(row.Mark(),
-                   "distance " + text_of(*distance) + ": must rise with the count, or fall, in all rows alike");
+                   "distance " + general_text(*distance) + ": must rise with the count, or fall, in all rows alike");
     }
     all.push_back({*count, *distance});
   }

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <sstream>
 
+#include "base/number_text.h"
+
 namespace trk_bridge::plot {
 namespace {
 
@@ -90,9 +92,7 @@ class Rectangle {
   double py(double y) const { return top_ + panel_height - (y - y_.first) / (y_.second - y_.first) * panel_height; }
 
   static std::string label(double value, double step) {
-    std::ostringstream text;
-    text << std::round(value / step) * step + 0.0;
-    return text.str();
+    return base::general_text(std::round(value / step) * step + 0.0);
   }
   void text(double x, double y, const char* anchor, const std::string& words) {
     svg_ << "<text x='" << x << "' y='" << y << "' text-anchor='" << anchor << "'>" << escaped(words) << "</text>\n";
@@ -107,6 +107,7 @@ class Rectangle {
 
 std::string to_svg(const std::string& title, const std::vector<Panel>& panels) {
   std::ostringstream svg;
+  svg.imbue(std::locale::classic());
   const auto count = static_cast<double>(panels.size());
   const double height = first_top + count * panel_height + (count - 1) * between_panels + bottom;
   svg << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 " << width << ' ' << height

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/nearest.h"
+#include "base/number_text.h"
 #include "trk_bridge/camera/camera.h"
 
 namespace trk_bridge::ros1 {
@@ -25,6 +26,7 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
 
 std::string text_of(const XmlRpcValue& value) {
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   if (value.getType() == XmlRpcValue::TypeString) {
     out << '\'' << value << '\'';
   } else {
@@ -72,31 +74,22 @@ bool Range::contains(double value) const noexcept {
 }
 
 std::string Range::text() const {
-  std::ostringstream out;
+  std::string text;
   if (std::isinf(least) && std::isinf(most)) {
-    out << "finite";
+    text = "finite";
   } else if (excludes_least) {
-    out << "more than " << least;
-    if (std::isfinite(most)) out << " and at most " << most;
+    text = "more than " + shown(least);
+    if (std::isfinite(most)) text += " and at most " + shown(most);
   } else {
-    out << least;
-    if (std::isfinite(most)) {
-      out << " to " << most;
-    } else {
-      out << " or more";
-    }
+    text = shown(least) + (std::isfinite(most) ? " to " + shown(most) : std::string(" or more"));
   }
-  if (*unit != '\0') out << ' ' << unit;
-  return out.str();
+  if (*unit != '\0') text += std::string(" ") + unit;
+  return text;
 }
 
 std::string shown(const std::string& text) { return '\'' + text + '\''; }
 
-std::string shown(double number) {
-  std::ostringstream out;
-  out << number;
-  return out.str();
-}
+std::string shown(double number) { return base::general_text(number); }
 
 tl::expected<void, std::string> check_camera_name(const std::string& name) {
   bool valid = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0;

@@ -1,18 +1,13 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 #include "camera_status.h"
 
-#include <sstream>
-
+#include "base/number_text.h"
 #include "texts.h"
 
 namespace trk_bridge::rviz_display {
 namespace {
 
-std::string metres(double value) {
-  std::ostringstream text;
-  text << value << " m";
-  return text.str();
-}
+std::string metres(double value) { return base::general_text(value) + " m"; }
 
 }  // namespace
 

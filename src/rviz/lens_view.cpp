@@ -1,17 +1,15 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 #include "lens_view.h"
 
-#include <sstream>
-
+#include "base/number_text.h"
 #include "ros/camera_info.h"
 
 namespace trk_bridge::rviz_display {
 namespace {
 
 std::string numbers(const camera::ViewingLens& lens) {
-  std::ostringstream text;
-  text << "fx " << lens.k[0] << ", fy " << lens.k[4] << ", image " << lens.width << " x " << lens.height;
-  return text.str();
+  return "fx " + base::general_text(lens.k[0]) + ", fy " + base::general_text(lens.k[4]) + ", image " +
+         std::to_string(lens.width) + " x " + std::to_string(lens.height);
 }
 
 }  // namespace

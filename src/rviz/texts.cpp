@@ -2,24 +2,21 @@
 #include "texts.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "base/number_text.h"
 #include "samples.h"
 
 namespace trk_bridge::rviz_display {
 namespace {
 
-template <typename... Numbers>
-std::string print(const char* format, Numbers... numbers) {
-  char text[160];
-  const int length = std::snprintf(text, sizeof text, format, numbers...);
-  return std::string(text, length < 0 ? 0 : std::min(static_cast<std::size_t>(length), sizeof text - 1));
-}
+using base::fixed_text;
+
+constexpr const char* degree = "\u00b0";
 
 /// Two decimals, and never "-0.00".
-double rounded(double value) {
+std::string two_decimals(double value) {
   const double result = std::round(value * 100) / 100;
-  return result == 0 ? 0 : result;
+  return fixed_text(result == 0 ? 0 : result, 2);
 }
 
 void append(std::string& line, const std::string& word) {
@@ -30,13 +27,13 @@ void append(std::string& line, const std::string& word) {
 std::string lens_line(const Values& values) {
   std::string line;
   if (values.image_distance) {
-    append(line, print("f %.2f mm", *values.image_distance));
+    append(line, "f " + fixed_text(*values.image_distance, 2) + " mm");
   } else if (values.focal_length) {
-    append(line, print("f %.0f px", *values.focal_length));
+    append(line, "f " + fixed_text(*values.focal_length, 0) + " px");
   }
   if (values.field_of_view) {
-    append(line,
-           print("fov %.1f\u00b0 x %.1f\u00b0", values.field_of_view->horizontal, values.field_of_view->vertical));
+    append(line, "fov " + fixed_text(values.field_of_view->horizontal, 1) + degree + " x " +
+                     fixed_text(values.field_of_view->vertical, 1) + degree);
   }
   if (values.counter) append(line, "#" + std::to_string(*values.counter));
   return line;
@@ -48,8 +45,9 @@ std::string text_of(const Values& values) {
   std::string text;
   if (values.pan_tilt_roll) {
     const auto& angles = *values.pan_tilt_roll;
-    text = print("pan %.2f\u00b0   tilt %.2f\u00b0   roll %.2f\u00b0", rounded(angles.pan), rounded(angles.tilt),
-                 rounded(angles.roll));
+    append(text, "pan " + two_decimals(angles.pan) + degree);
+    append(text, "tilt " + two_decimals(angles.tilt) + degree);
+    append(text, "roll " + two_decimals(angles.roll) + degree);
   }
   const std::string lens = lens_line(values);
   if (!text.empty() && !lens.empty()) text += '\n';
@@ -66,17 +64,19 @@ std::string name_of_topic(const std::string& topic) {
 Age age_of(const ros::Time& stamp, const ros::Time& arrival, const ros::Time& now) {
   if (stamp.isZero()) {
     const double age = seconds_between(arrival, now);
-    return {age <= old_age, print("no stamp; %.2f s since arrival", rounded(age))};
+    return {age <= old_age, "no stamp; " + two_decimals(age) + " s since arrival"};
   }
   const double age = seconds_between(stamp, now);
-  if (age < -old_age) return {false, print("%.2f s: the stamp is in the future", rounded(age))};
-  if (age > old_age) return {false, print("%.2f s: the stamp is older than %.0f s", rounded(age), old_age)};
-  return {true, print("%.2f s", rounded(age))};
+  if (age < -old_age) return {false, two_decimals(age) + " s: the stamp is in the future"};
+  if (age > old_age) {
+    return {false, two_decimals(age) + " s: the stamp is older than " + fixed_text(old_age, 0) + " s"};
+  }
+  return {true, two_decimals(age) + " s"};
 }
 
 std::string silence_text(const std::string& topic, const ros::Time& last_arrival, const ros::Time& now) {
-  return "no messages on " + topic + " for " + print("%.1f s", seconds_between(last_arrival, now)) + ", since " +
-         print("%.3f", last_arrival.toSec());
+  return "no messages on " + topic + " for " + fixed_text(seconds_between(last_arrival, now), 1) + " s, since " +
+         fixed_text(last_arrival.toSec(), 3);
 }
 
 }  // namespace trk_bridge::rviz_display

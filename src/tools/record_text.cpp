@@ -9,8 +9,8 @@
 
 #include <rapidjson/writer.h>
 
+#include "base/number_text.h"
 #include "base/time_text.h"
-#include "cli/number_text.h"
 #include "trk_bridge/wire/fields.h"
 #include "trk_bridge/wire/format.h"
 
@@ -104,7 +104,7 @@ class JsonRecord {
       // Readers parse -0 as an integer and lose its sign.
       raw("-0.0");
     } else {
-      raw(cli::number_text(content));
+      raw(base::number_text(content));
     }
   }
 
@@ -209,7 +209,7 @@ class PlainRecord {
 
   template <typename Number>
   void number(Number value) {
-    word(cli::number_text(value));
+    word(base::number_text(value));
   }
 
   std::string line_;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/number_text.h"
 #include "interfaces.h"
 #include "scheme.h"
 #include "socket.h"
@@ -63,7 +64,7 @@ SocketAddress target_of(const SendSettings& settings) {
 steady_clock::duration period_of(const SendSettings& settings) {
   const double seconds = settings.constants_period;
   if (!(seconds >= 0.0 && seconds <= 86400.0)) {
-    throw TransportError("constants_period = " + std::to_string(seconds) + ": allowed are seconds from 0 to 86400");
+    throw TransportError("constants_period = " + base::number_text(seconds) + ": allowed are seconds from 0 to 86400");
   }
   return std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(seconds));
 }

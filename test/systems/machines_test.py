@@ -92,7 +92,7 @@ class WithReadOnlyTmp(Machine):
         output = self.run_on(READ_ONLY_TMP, '"$TRK" relay "file:$TAKE?speed=0" file:/tmp/trk_bridge_test.trk', expected=1)
         self.assertIn("/tmp/trk_bridge_test.trk: cannot be written: the system refused: Read-only file system", output)
         output = self.run_on(READ_ONLY_TMP, '"$TRK" lens "$LENS" --plot /tmp/trk_bridge_test.svg', expected=1)
-        self.assertIn("/tmp/trk_bridge_test.svg: cannot be written", output)
+        self.assertIn("/tmp/trk_bridge_test.svg: cannot be written: Read-only file system", output)
 
     def test_networks_need_no_tmp(self):
         self.assert_received(READ_ONLY_TMP, "udp://:7000", "udp://127.0.0.1:7000?id=7")

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <charconv>
-#include <clocale>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -252,18 +251,6 @@ TEST(Numbers, AreTheSameUnderACppLocaleWithCommas) {
   EXPECT_EQ(proof.str(), "1.234,5");
   expect_points();
   std::locale::global(before);
-}
-
-TEST(Numbers, AreTheSameUnderACLocaleWithCommas) {
-  const std::string before = std::setlocale(LC_ALL, nullptr);
-  const char* found = nullptr;
-  for (const char* const name : {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "it_IT.UTF-8", "es_ES.UTF-8"}) {
-    if (found == nullptr) found = std::setlocale(LC_ALL, name);
-  }
-  if (found == nullptr) GTEST_SKIP() << "no locale with decimal commas is installed; the C++ one is tested above";
-  EXPECT_STREQ(std::localeconv()->decimal_point, ",");
-  expect_points();
-  std::setlocale(LC_ALL, before.c_str());
 }
 
 TEST(WholeNumbers, AreDecimal) {
