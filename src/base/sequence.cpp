@@ -84,7 +84,7 @@ Order Sequence::judge(std::uint64_t counter, std::uint64_t fingerprint) noexcept
     update_state(order);
     if (order != Order::duplicate) {
       fingerprints_[next_fingerprint_] = fingerprint;
-      next_fingerprint_ = (next_fingerprint_ + 1) % std::min<std::uint64_t>(second_, window);
+      next_fingerprint_ = (next_fingerprint_ + 1) % static_cast<std::size_t>(std::min<std::uint64_t>(second_, window));
     }
     if (counts_.state == CounterState::frozen && !is_new(order)) order = Order::uncounted;
   }
@@ -125,8 +125,8 @@ Order Sequence::ahead(std::uint64_t counter, std::uint64_t by) noexcept {
   if (by > window) {
     received_.reset();
   } else {
-    received_ <<= by;
-    received_.set(by - 1);
+    received_ <<= bit_of(by) + 1;
+    received_.set(bit_of(by));
   }
   counts_.lost += by - 1;
   return Order::next;
@@ -154,7 +154,7 @@ void Sequence::note_backward_jump(CounterState state) noexcept {
 
 Order Sequence::fill(std::uint64_t by) noexcept {
   if (by <= window) {
-    received_.set(by - 1);
+    received_.set(bit_of(by));
     // Counters before the first one of this run were never counted as lost.
     if (by <= span_) --counts_.lost;
   }

@@ -43,7 +43,7 @@ inline void put_eight_digits(std::uint32_t number, char* to) noexcept {
   std::uint64_t fraction = (number * std::uint64_t{144115188076} >> 25U) + 1;
   constexpr std::uint64_t one = std::uint64_t{1} << 32U;
   const auto put_pair = [&fraction](char* at) {
-    std::memcpy(at, &pairs[2 * (fraction >> 32U)], 2);
+    std::memcpy(at, &pairs[2 * static_cast<std::size_t>(fraction >> 32U)], 2);
     fraction = (fraction & (one - 1)) * 100;
   };
   put_pair(to);

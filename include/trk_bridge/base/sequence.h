@@ -89,9 +89,11 @@ class Sequence {
   Order ahead(std::uint64_t counter, std::uint64_t by) noexcept;
   Order back(std::uint64_t counter, std::uint64_t by, std::uint64_t fingerprint) noexcept;
   Order begin_at(std::uint64_t counter, Order verdict) noexcept;
+  /// In `received_`, of the counter that is `by` counts before the newest; `by` is from 1 to `window`.
+  static std::size_t bit_of(std::uint64_t by) noexcept { return static_cast<std::size_t>(by - 1); }
   /// A counter that is `by` counts before the newest.
   Order fill(std::uint64_t by) noexcept;
-  bool received(std::uint64_t by) const noexcept { return by == 0 || (by <= window && received_.test(by - 1)); }
+  bool received(std::uint64_t by) const noexcept { return by == 0 || (by <= window && received_.test(bit_of(by))); }
   bool is_known(std::uint64_t fingerprint) const noexcept;
   /// The counter went back by less than a cycle, or did not change. Twice within a cycle, this sets the state.
   void note_backward_jump(CounterState) noexcept;

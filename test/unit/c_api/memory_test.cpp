@@ -68,7 +68,7 @@ TEST_F(Memory, numbers_that_are_not_finite_are_neither_written_nor_read) {
   // Like another program: the record and its counter, byte for byte, into a segment of 544 bytes.
   auto* const segment = static_cast<char*>(::shmat(slot.segment(), nullptr, 0));
   ASSERT_NE(segment, reinterpret_cast<char*>(-1));
-  constexpr std::size_t counter_at = 12, params_at = 16, params_size = 200, transform_at = 8;
+  constexpr std::size_t counter_at = 12, params_at = 16, params_size = 200, transform_at = 8, numbers_size = 23 * 8;
   const auto write_as_it_is = [&](const trkCameraParams& params) {
     std::uint16_t count = 0;
     std::memcpy(&count, segment + counter_at, sizeof count);
@@ -76,7 +76,9 @@ TEST_F(Memory, numbers_that_are_not_finite_are_neither_written_nor_read) {
     char* const record = segment + params_at + (count & 1U) * params_size;
     const unsigned head[] = {0, params.format};
     std::memcpy(record, head, sizeof head);
-    std::memcpy(record + transform_at, &params.t, params_size - transform_at);
+    std::memcpy(record + transform_at, &params.t, numbers_size);
+    const std::uint64_t counter = params.counter;
+    std::memcpy(record + transform_at + numbers_size, &counter, sizeof counter);
     std::memcpy(segment + counter_at, &count, sizeof count);
   };
   struct Case {

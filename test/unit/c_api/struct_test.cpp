@@ -11,17 +11,21 @@
 
 namespace {
 
+// On i386, doubles in structures are aligned to 4 bytes, and unsigned long has 4.
+constexpr bool is_i386 = sizeof(void*) == 4 && alignof(trkCameraParams) == 4;
 #ifdef TRK_IDENTIFIED
 static_assert(offsetof(trkCameraParams, id) == 0 && offsetof(trkCameraParams, format) == 4);
-static_assert(sizeof(trkCameraConstants) == 64 && offsetof(trkCameraConstants, imageWidth) == 4);
-static_assert(offsetof(trkCameraConstants, chipWidth) == 32);
+static_assert(offsetof(trkCameraParams, t) == 8);
+static_assert(sizeof(trkCameraConstants) == (is_i386 ? 60 : 64) && offsetof(trkCameraConstants, imageWidth) == 4);
+static_assert(offsetof(trkCameraConstants, chipWidth) == (is_i386 ? 28 : 32));
 #else
-static_assert(offsetof(trkCameraParams, format) == 0);
+static_assert(offsetof(trkCameraParams, format) == 0 && offsetof(trkCameraParams, t) == (is_i386 ? 4 : 8));
 static_assert(sizeof(trkCameraConstants) == 56 && offsetof(trkCameraConstants, chipWidth) == 24);
 #endif
-static_assert(sizeof(trkCameraParams) == 200 && offsetof(trkCameraParams, t) == 8);
-static_assert(offsetof(trkCameraParams, fov) == 136 && offsetof(trkCameraParams, aperture) == 184);
-static_assert(offsetof(trkCameraParams, counter) == 192);
+constexpr std::size_t numbers = offsetof(trkCameraParams, t);
+static_assert(offsetof(trkCameraParams, fov) == numbers + 128 && offsetof(trkCameraParams, aperture) == numbers + 176);
+static_assert(offsetof(trkCameraParams, counter) == numbers + 184);
+static_assert(sizeof(trkCameraParams) == numbers + 184 + (is_i386 ? 4 : 8));
 
 trkCameraParams euler_params() {
   trkCameraParams p{};

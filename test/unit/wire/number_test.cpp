@@ -99,7 +99,7 @@ TEST(Numbers, AreReadAsStrtodReadsThem) {
     const double value = likely_number(random);
     // %g and %e like existing programs, more digits than a double has, and the exact value, which without its last
     // digit is often halfway between two others.
-    const char* const format = std::array{"%.*g", "%.*e", "%.*f"}[random() % 3];
+    const char* const format = std::array{"%.*g", "%.*e", "%.*f"}[static_cast<std::size_t>(random() % 3)];
     char word[400];
     std::snprintf(word, sizeof word, format, static_cast<int>(random() % 26), value);
     const auto read = read_pan(word);
