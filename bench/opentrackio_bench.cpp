@@ -36,7 +36,7 @@ WriterSettings settings() {
 
 /// A time stamp and a time code.
 void use_time(PacketEncoder& encoder) {
-  encoder.use_time(1'700'000'000'123'456'789, base::CountedTimeCode{{10, 20, 30, 12, 2}, 50});
+  encoder.use_time(1'700'000'000'123'456'789, base::TimeCodeWithRate{{10, 20, 30, 12, 2}, 50});
 }
 
 /// Decodes dynamic samples, all different.

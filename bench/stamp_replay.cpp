@@ -55,7 +55,7 @@ int main() {
       return 1;
     }
     // Only the counter of a record is known: an equal counter means the same record. 0 is not a valid fingerprint.
-    if (!base::is_new(sequence.judge(counter, counter + 1))) continue;
+    if (!base::is_new(sequence.classify(counter, counter + 1))) continue;
     std::cout << counter << ' ';
     if (sequence.counts().state == base::CounterState::counts) {
       std::cout << clock.stamp(sequence.step(), arrival) << '\n';

@@ -72,7 +72,7 @@ class TakeCamera {
 
   /// Afterwards messages() holds the content of the update.
   bridge::CameraUpdate process(const wire::Record& record, std::int64_t stamp,
-                               std::optional<base::CountedTimeCode> time_code = {}) {
+                               std::optional<base::TimeCodeWithRate> time_code = {}) {
     sample_.record = record;
     sample_.arrival = stamp;
     sample_.time_code = time_code;
@@ -103,9 +103,9 @@ class Schedule {
 
   std::int64_t at(std::uint64_t field) const { return base_ + times_->nanoseconds(field); }
   /// None if the time code of the take does not fit the rate.
-  std::optional<base::CountedTimeCode> time_code(std::uint64_t field) const {
+  std::optional<base::TimeCodeWithRate> time_code(std::uint64_t field) const {
     if (!codes_) return std::nullopt;
-    return base::CountedTimeCode{codes_->code(field), rate_};
+    return base::TimeCodeWithRate{codes_->code(field), rate_};
   }
   /// When the time code was 00:00:00:00:1; none if it does not fit the rate.
   std::optional<std::int64_t> zero() const {
@@ -222,7 +222,7 @@ std::optional<transport::Fault> record(file::TakeReader& take, const Schedule& s
 
 }  // namespace
 
-void check_written(const std::string& path, const transport::Written& written) {
+void check_written(const std::string& path, const transport::WriteResult& written) {
   if (!written) throw transport::TransportError(path + ": cannot be written: " + describe(written.error()));
 }
 

@@ -54,6 +54,6 @@ void take_of_bag(const std::string& bag, const std::string& take, const BagToTak
                  std::ostream& err);
 
 /// Throws transport::TransportError "PATH: cannot be written: reason" unless it was written.
-void check_written(const std::string& path, const transport::Written&);
+void check_written(const std::string& path, const transport::WriteResult&);
 
 }  // namespace trk_bridge::bag

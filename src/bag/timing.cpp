@@ -78,7 +78,7 @@ void FieldSeries::add_distance(std::uint64_t counter, std::int64_t stamp) {
 void FieldSeries::find_gap(std::uint64_t counter, std::int64_t stamp) {
   if (has_counters_) {
     const std::uint64_t lost = sequence_.counts().lost;
-    const auto order = sequence_.judge(counter);
+    const auto order = sequence_.classify(counter);
     const std::uint64_t now_lost = sequence_.counts().lost;
     if (order == base::Order::next && now_lost > lost) add_gap(now_lost - lost);
   } else if (count_ > 0) {
@@ -117,8 +117,8 @@ void check_rate(double rate, std::optional<double> option, std::optional<double>
   err << "trk: " << found << '\n';
 }
 
-std::optional<base::CountedTimeCode> recorded_time_code(Reader& bag, const std::string& topic, std::int64_t stamp) {
-  std::optional<base::CountedTimeCode> found;
+std::optional<base::TimeCodeWithRate> recorded_time_code(Reader& bag, const std::string& topic, std::int64_t stamp) {
+  std::optional<base::TimeCodeWithRate> found;
   const auto wanted = [&topic](const Connection& connection) {
     return connection.topic == topic && carries<trk_bridge::TimeCode>(connection);
   };

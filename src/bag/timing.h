@@ -70,7 +70,7 @@ class FieldSeries {
 void check_rate(double rate, std::optional<double> option, std::optional<double> measured, std::ostream& err);
 
 /// The message with this stamp on a topic `time_code`, if the bag has one. Throws BagError if it is not a time code.
-std::optional<base::CountedTimeCode> recorded_time_code(Reader&, const std::string& topic, std::int64_t stamp);
+std::optional<base::TimeCodeWithRate> recorded_time_code(Reader&, const std::string& topic, std::int64_t stamp);
 
 /// The time code of a stamp, counted from the zero of the bag if it has one that is not later, else from midnight UTC.
 tl::expected<base::TimeCode, std::string> time_code_of(std::int64_t stamp, double field_rate,

@@ -77,7 +77,7 @@ void Sequence::use_field_rate(double field_rate) noexcept {
   restart_ahead_ = at_least_one(restart_ahead * field_rate);
 }
 
-Order Sequence::judge(std::uint64_t counter, std::uint64_t fingerprint) noexcept {
+Order Sequence::classify(std::uint64_t counter, std::uint64_t fingerprint) noexcept {
   step_ = 0;
   Order order = use_ == CounterUse::ignore ? Order::uncounted : order_of(counter, fingerprint);
   if (use_ == CounterUse::automatic) {

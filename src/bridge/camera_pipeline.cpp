@@ -144,7 +144,8 @@ bool CameraPipeline::is_new(const wire::CameraParams& params, const transport::S
   ++statistics_.params;
   statistics_.last_id = params.id;
   statistics_.last_format = params.format;
-  const bool accepted = !sample.has_counter || base::is_new(sequence_.judge(params.counter, wire::fingerprint(params)));
+  const bool accepted =
+      !sample.has_counter || base::is_new(sequence_.classify(params.counter, wire::fingerprint(params)));
   if (!sample.has_counter) ++statistics_.without_counter;
   statistics_.sequence = sequence_.counts();
   statistics_.sequence.accepted += statistics_.without_counter;

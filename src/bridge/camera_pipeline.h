@@ -30,8 +30,8 @@ enum class StampState : std::uint8_t {
   source,
 };
 
-/// Statistics of a camera's records. Trivially copyable. A record is "new" if base::Sequence judges it new, or if the
-/// protocol has no counter.
+/// Statistics of a camera's records. Trivially copyable. A record is "new" if base::Sequence classifies it as new, or
+/// if the protocol has no counter.
 struct CameraStatistics {
   std::uint64_t params = 0;           ///< parameter records of the followed sender, in any order
   base::SequenceCounts sequence;      ///< `accepted` counts all new records
@@ -80,14 +80,14 @@ struct CameraEncoders {
 
 /// What one sample leads to publish, all with one stamp.
 struct CameraUpdate {
-  std::int64_t stamp = 0;                          ///< ns since 1970 UTC; 0: no time is known (only for constants)
-  std::optional<wire::CameraConstants> constants;  ///< set if they changed; valid for params in the published format
-  std::optional<wire::CameraParams> params;        ///< in the published format
-  std::optional<camera::Calibration> calibration;  ///< for CameraInfo
-  std::optional<Eigen::Isometry3d> pose;           ///< studio_T_camera, m
-  std::optional<base::CountedTimeCode> time_code;  ///< of parameters, if the protocol has one
-  std::optional<CameraEncoders> encoders;          ///< likewise
-  std::optional<Uncalibrated> uncalibrated;        ///< input of CameraPipeline::calibrate(), if one is wanted
+  std::int64_t stamp = 0;                           ///< ns since 1970 UTC; 0: no time is known (only for constants)
+  std::optional<wire::CameraConstants> constants;   ///< set if they changed; valid for params in the published format
+  std::optional<wire::CameraParams> params;         ///< in the published format
+  std::optional<camera::Calibration> calibration;   ///< for CameraInfo
+  std::optional<Eigen::Isometry3d> pose;            ///< studio_T_camera, m
+  std::optional<base::TimeCodeWithRate> time_code;  ///< of parameters, if the protocol has one
+  std::optional<CameraEncoders> encoders;           ///< likewise
+  std::optional<Uncalibrated> uncalibrated;         ///< input of CameraPipeline::calibrate(), if one is wanted
 
   bool is_empty() const noexcept { return stamp == 0 && !constants; }
 };

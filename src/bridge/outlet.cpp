@@ -23,7 +23,7 @@ using std::chrono::milliseconds;
 using transport::Blocking;
 using transport::SinkFault;
 using transport::SinkReason;
-using transport::Written;
+using transport::WriteResult;
 
 /// Covers the 200 ms of waiting for a half-created segment at up to 250 sets a second; older sets are of no use.
 constexpr std::size_t attaching_capacity = 64;
@@ -33,7 +33,7 @@ constexpr std::size_t storage_capacity = 10'000;
 /// How often opening a sink is tried again.
 constexpr std::chrono::seconds retry_period{1};
 /// How often close() checks whether the thread has ended.
-constexpr milliseconds look_period{20};
+constexpr milliseconds poll_period{20};
 
 WhenFull when_full(Blocking blocking, bool caller_can_wait) noexcept {
   if (caller_can_wait) return WhenFull::wait;
@@ -102,7 +102,7 @@ class Outlet::Work {
     return ended_.wait_for(lock, wait, [this] { return closed_.has_value(); });
   }
   /// The result of closing. Call only after has_ended().
-  Written closed() const {
+  WriteResult closed() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return *closed_;
   }
@@ -147,7 +147,7 @@ class Outlet::Work {
   std::condition_variable ended_;
   bool is_open_ = false;
   std::string cannot_open_;
-  std::optional<Written> closed_;
+  std::optional<WriteResult> closed_;
 };
 
 void Outlet::Work::try_to_open() {
@@ -191,7 +191,7 @@ void Outlet::Work::run() {
       is_good = is_in_order();
     }
   }
-  Written closed;
+  WriteResult closed;
   step([&] { closed = writer_.close(); });
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -232,11 +232,11 @@ void Outlet::finish() {
   work_->queue()->close();
 }
 
-Written Outlet::close() {
+WriteResult Outlet::close() {
   if (is_abandoned_) return {};
-  if (!thread_.joinable()) return work_->queue() ? Written() : work_->writer().close();
+  if (!thread_.joinable()) return work_->queue() ? WriteResult() : work_->writer().close();
   finish();
-  for (auto begin = finished_; !work_->has_ended(look_period);) {
+  for (auto begin = finished_; !work_->has_ended(poll_period);) {
     const auto now = base::steady_now();
     if (may_wait_ && may_wait_()) begin = now;
     const auto busy_since = work_->busy_since();

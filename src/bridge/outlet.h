@@ -60,7 +60,7 @@ class Outlet {
   /// a segment, takes longer than `patience` (and OutletOptions::may_wait does not extend it), the thread is abandoned:
   /// the result is no_answer, and unwritten() is the number of missing records. The abandoned thread runs on until the
   /// program ends, and does not call the listener. Closing again does nothing.
-  [[nodiscard]] transport::Written close();
+  [[nodiscard]] transport::WriteResult close();
 
   OutletStatistics statistics() const noexcept;
   OutletState state() const;

@@ -101,7 +101,7 @@ std::optional<wire::CameraParams> OutletWriter::converted(const wire::CameraPara
   return *converted.params;
 }
 
-transport::Written OutletWriter::constants_before_set(Camera* camera) {
+transport::WriteResult OutletWriter::constants_before_set(Camera* camera) {
   if (camera == nullptr) return {};
   if (camera->retries) camera->constants_written = put(*camera->converter.outgoing());
   // If the first attempt was made just before this set, it is not repeated at once.
@@ -110,7 +110,7 @@ transport::Written OutletWriter::constants_before_set(Camera* camera) {
 }
 
 template <typename Record, typename... Time>
-transport::Written OutletWriter::put(Record record, const Time&... time) {
+transport::WriteResult OutletWriter::put(Record record, const Time&... time) {
   const auto own_id = record.id;
   record.id = sent_id(form_, own_id);
   statistics_.last_id = record.id;
@@ -120,7 +120,7 @@ transport::Written OutletWriter::put(Record record, const Time&... time) {
   return written;
 }
 
-transport::Written OutletWriter::close() {
+transport::WriteResult OutletWriter::close() {
   const auto closed = sink_->close();
   publish();
   return closed;

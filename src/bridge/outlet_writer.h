@@ -86,7 +86,7 @@ class OutletWriter {
   /// Sink::prepare.
   void prepare() { sink_->prepare(); }
   /// Sink::close.
-  [[nodiscard]] transport::Written close();
+  [[nodiscard]] transport::WriteResult close();
 
   /// A consistent snapshot. Any thread.
   OutletStatistics statistics() const noexcept { return published_.load(); }
@@ -96,8 +96,8 @@ class OutletWriter {
  private:
   struct Camera {
     camera::Converter converter;
-    transport::Written constants_written;  // the last attempt
-    bool retries = false;                  // it failed, and a set was written since
+    transport::WriteResult constants_written;  // the last attempt
+    bool retries = false;                      // it failed, and a set was written since
   };
 
   std::uint32_t key(std::uint32_t id) const noexcept { return feed_ == Feed::one_camera ? 0 : id; }
@@ -109,10 +109,10 @@ class OutletWriter {
   /// In the format; none if they are lost.
   std::optional<wire::CameraParams> converted(const wire::CameraParams&, const Camera*);
   /// Retries writing the camera's constants if that is due; the result of the last attempt.
-  transport::Written constants_before_set(Camera*);
+  transport::WriteResult constants_before_set(Camera*);
   /// With the id of the form.
   template <typename Record, typename... Time>
-  transport::Written put(Record, const Time&...);
+  transport::WriteResult put(Record, const Time&...);
   void lose(std::uint32_t id, const Loss::Cause&) const;
   void publish() noexcept;
 

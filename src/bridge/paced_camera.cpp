@@ -66,7 +66,7 @@ camera::Result<void> PacedCamera::add(const wire::CameraParams& params, std::int
   if (history_.is_empty()) {
     for (auto& output : outputs_) output.last.reset();
   }
-  if (const auto order = order_.judge(params.counter, wire::fingerprint(params));
+  if (const auto order = order_.classify(params.counter, wire::fingerprint(params));
       !base::is_new(order) && !history_.is_empty() && time > history_.newest()) {
     ++ignored_;
     return {};

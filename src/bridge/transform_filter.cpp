@@ -43,7 +43,7 @@ bool TransformFilter::ros_time_went_back(std::int64_t ros_now) {
   return true;
 }
 
-TransformFilter::Verdict TransformFilter::judge(const StampedLink& given, std::int64_t ros_now, std::int64_t now) {
+TransformFilter::Verdict TransformFilter::classify(const StampedLink& given, std::int64_t ros_now, std::int64_t now) {
   auto& link = link_of(given.parent, given.child);
   const auto jump = jump_of(link, given, ros_now, now);
   if (jump) {

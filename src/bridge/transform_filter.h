@@ -61,10 +61,10 @@ class TransformFilter {
   /// Adds a link without stamps.
   void add_static(std::string_view parent, std::string_view child) { link_of(parent, child); }
   /// Whether ROS time, `ros_now`, has gone back by more than 1 s since the last call: then the buffer must be cleared.
-  /// Call it before judge().
+  /// Call it before classify().
   bool ros_time_went_back(std::int64_t ros_now);
   /// `ros_now` is ROS time, `now` the steady clock, both ns. Allocates only for new links and for jumps.
-  Verdict judge(const StampedLink&, std::int64_t ros_now, std::int64_t now);
+  Verdict classify(const StampedLink&, std::int64_t ros_now, std::int64_t now);
 
   const TransformFilterStatistics& statistics() const noexcept { return statistics_; }
 

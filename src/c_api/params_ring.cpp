@@ -10,7 +10,7 @@ namespace trk_bridge::c_api {
 using base::Order;
 
 void ParamsRing::push(const wire::CameraParams& params) noexcept {
-  switch (sequence_.judge(params.counter, wire::fingerprint(params))) {
+  switch (sequence_.classify(params.counter, wire::fingerprint(params))) {
     case Order::first:
     case Order::restarted:
     case Order::uncounted:

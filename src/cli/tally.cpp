@@ -30,14 +30,14 @@ std::optional<base::Order> Tally::add(const transport::Sample& sample) {
   auto camera = cameras_.find(key);
   if (camera == cameras_.end()) {
     if (cameras_.size() == most_cameras) {
-      ++not_judged_;
+      ++not_checked_;
       return std::nullopt;
     }
     // Without counters, every record is new.
     const auto use = sample.has_counter ? base::CounterUse::automatic : base::CounterUse::ignore;
     camera = cameras_.try_emplace(key, assumed_field_rate, use).first;
   }
-  return camera->second.judge(params->counter, wire::fingerprint(*params));
+  return camera->second.classify(params->counter, wire::fingerprint(*params));
 }
 
 void Tally::summarise(const transport::SourceStatistics& source, std::ostream& out) const {
@@ -53,9 +53,9 @@ void Tally::summarise(const transport::SourceStatistics& source, std::ostream& o
         << " accepted, " << counts.lost << " lost, " << counts.duplicates << " duplicate, " << counts.late
         << " out of order, " << counts.restarts << " restarts\n";
   }
-  if (not_judged_ != 0) {
-    out << "trk: " << not_judged_ << " parameters of more cameras than the " << most_cameras
-        << " whose counters are judged\n";
+  if (not_checked_ != 0) {
+    out << "trk: " << not_checked_ << " parameters of more cameras than the " << most_cameras
+        << " whose counters are checked\n";
   }
 }
 

@@ -33,12 +33,12 @@ class Tally {
   /// One line about the source, then one per camera: `trk: id 7 from 192.0.2.7:5000: 100 accepted, 3 lost, …`.
   void summarise(const transport::SourceStatistics&, std::ostream&) const;
 
-  /// Cameras whose counters are judged; records of more cameras, as a port scan could produce, are only counted.
+  /// Cameras whose counters are checked; records of more cameras, as a port scan could produce, are only counted.
   static constexpr std::size_t most_cameras = 256;
 
  private:
   std::map<Key, base::Sequence, Less> cameras_;
-  std::uint64_t params_ = 0, constants_ = 0, not_judged_ = 0;
+  std::uint64_t params_ = 0, constants_ = 0, not_checked_ = 0;
 };
 
 }  // namespace trk_bridge::cli

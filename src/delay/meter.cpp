@@ -238,7 +238,7 @@ Measurement Meter::measure() const {
   // Spans overlap: only one of `length` is independent.
   const double overlap = std::sqrt(static_cast<double>(length));
   result.accuracy = comparison.accuracy(result.delay, step) * overlap;
-  const auto judge = [&](const Sums& sums) {
+  const auto evaluate = [&](const Sums& sums) {
     for (int i = 0; i < 3; ++i) {
       Axis& axis = result.axes[static_cast<std::size_t>(i)];
       axis.scale = sums.scale(i);
@@ -249,11 +249,11 @@ Measurement Meter::measure() const {
     }
     find_focal_length(result);
   };
-  judge(comparison.sums(result.delay));
+  evaluate(comparison.sums(result.delay));
   // A wrong focal length also distorts the motion away from the centre; so the scales are computed again with the right
   // one.
   if (result.focal_length_scale && result.focal_length_error < worst_focal_length_error) {
-    judge(Comparison(path, spans_of(frames, raster, length, *result.focal_length_scale)).sums(result.delay));
+    evaluate(Comparison(path, spans_of(frames, raster, length, *result.focal_length_scale)).sums(result.delay));
   }
   result.speeds = speeds_of(comparison, result.delay);
   if (result.correlation < least_correlation) return cannot(CannotTell::disagree);

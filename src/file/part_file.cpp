@@ -40,7 +40,7 @@ tl::expected<void, SinkFault> empty(int fd, bool overwrite) {
   struct stat there {};
   if (::fstat(fd, &there) != 0) return refused_by_system(errno);
   if (!S_ISREG(there.st_mode)) return refused(SinkReason::not_a_file);
-  if (there.st_size > 0 && !overwrite) return refused(SinkReason::left_over);
+  if (there.st_size > 0 && !overwrite) return refused(SinkReason::part_exists);
   if (::ftruncate(fd, 0) != 0) return refused_by_system(errno);
   return {};
 }

@@ -20,8 +20,8 @@ enum class Fifo : std::uint8_t { refused, allowed };
 /// Whether an existing `.part` may be taken over: an empty one, or with `overwrite` any.
 enum class Part : std::uint8_t { taken_over, refused };
 
-/// Written as `PATH.part`. If a writer dies, its data stays in `PATH.part`, and there is no file with the final name. A
-/// FIFO is written directly. One thread at a time; only open() allocates.
+/// WriteResult as `PATH.part`. If a writer dies, its data stays in `PATH.part`, and there is no file with the final
+/// name. A FIFO is written directly. One thread at a time; only open() allocates.
 class PartFile {
  public:
   struct Options {
@@ -31,7 +31,7 @@ class PartFile {
   };
 
   /// Creates an empty `path`.part, which is locked against other writers while it is open; the kernel unlocks it when a
-  /// writer dies. Faults: exists, left_over, in_use, not_a_file, no_reader, system. Does not wait for the reader of a
+  /// writer dies. Faults: exists, part_exists, in_use, not_a_file, no_reader, system. Does not wait for the reader of a
   /// FIFO.
   static tl::expected<PartFile, transport::SinkFault> open(const std::string& path, const Options&);
   /// The fault that open() would return because of the final name, for a check before long work.

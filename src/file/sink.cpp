@@ -20,7 +20,7 @@ using transport::refused_by_system;
 using transport::SinkFault;
 using transport::SinkReason;
 using transport::TransportError;
-using transport::Written;
+using transport::WriteResult;
 
 /// How often writes try again to open a file that could not be opened.
 constexpr std::chrono::seconds retry_period{1};
@@ -41,24 +41,24 @@ class FileSink final : public transport::Sink {
 
  private:
   void get_ready() override;
-  Written put(const wire::CameraParams&) override;
-  Written put(const wire::CameraConstants& constants) override { return writer_.write(constants); }
-  Written finish() override;
+  WriteResult put(const wire::CameraParams&) override;
+  WriteResult put(const wire::CameraConstants& constants) override { return writer_.write(constants); }
+  WriteResult finish() override;
 
   /// Called before the first field, whose time this is. Cannot fail: every allowed rate has a code for every time of
   /// the day.
-  void set_time_code(std::int64_t time, const std::optional<base::CountedTimeCode>& of_source = {}) {
+  void set_time_code(std::int64_t time, const std::optional<base::TimeCodeWithRate>& of_source = {}) {
     const auto of_day = [&] { return *base::time_code_at(time % day, settings_.rate); };
     writer_.set_time_code(settings_.time_code ? *settings_.time_code : of_source ? of_source->code : of_day());
   }
-  Written open(std::int64_t time);
-  Written open_when_due(std::int64_t time);
+  WriteResult open(std::int64_t time);
+  WriteResult open_when_due(std::int64_t time);
   /// Publishes unfinished takes of dead writers, and reports them in notice().
   void recover();
 
   const SinkSettings settings_;
   TakeWriter writer_;
-  Written opened_;  // the last attempt
+  WriteResult opened_;  // the last attempt
   steady_clock::time_point next_attempt_{};
   mutable std::mutex mutex_;  // protects the following members
   std::string name_;
@@ -76,7 +76,7 @@ void FileSink::recover() {
   notice_ = notice;
 }
 
-Written FileSink::open(std::int64_t time) {
+WriteResult FileSink::open(std::int64_t time) {
   recover();
   const std::string path = settings_.path.at(time);
   auto file = path.empty()       ? OpenedFile(refused_by_system(ENAMETOOLONG))
@@ -91,7 +91,7 @@ Written FileSink::open(std::int64_t time) {
   return {};
 }
 
-Written FileSink::open_when_due(std::int64_t time) {
+WriteResult FileSink::open_when_due(std::int64_t time) {
   const auto now = steady_clock::now();
   if (!opened_ && now < next_attempt_) return opened_;
   next_attempt_ = now + retry_period;
@@ -124,7 +124,7 @@ void FileSink::get_ready() {
   throw TransportError(settings_.path.shown() + ": cannot be written: " + describe(opened_.error()));
 }
 
-Written FileSink::put(const wire::CameraParams& params) {
+WriteResult FileSink::put(const wire::CameraParams& params) {
   if (!writer_.has_constants()) return refused(SinkReason::no_constants);
   const std::int64_t time = this->time().nanoseconds > 0 ? this->time().nanoseconds : base::wall_now();
   if (!writer_.is_open()) {
@@ -134,7 +134,7 @@ Written FileSink::put(const wire::CameraParams& params) {
   return writer_.write(params);
 }
 
-Written FileSink::finish() {
+WriteResult FileSink::finish() {
   if (!writer_.is_open()) {
     if (!opened_) return opened_;
     if (!writer_.has_constants()) return refused(SinkReason::no_constants);

@@ -204,7 +204,7 @@ class FileSource final : public transport::CountedSource {
       return;
     }
     sample.record = take_->params();
-    if (codes_) sample.time_code = base::CountedTimeCode{codes_->code(played_ - round_begin_), rate_};
+    if (codes_) sample.time_code = base::TimeCodeWithRate{codes_->code(played_ - round_begin_), rate_};
     has_next_ = false;
     ++played_;
   }
@@ -214,7 +214,7 @@ class FileSource final : public transport::CountedSource {
       statistics.waiting_for =
           name() + (take_->is_fifo() ? ": a FIFO, nothing written yet" : ": open, nothing played yet");
     }
-    // Written once, before the state.
+    // WriteResult once, before the state.
     if (statistics.state == SourceState::failed && !failure_.empty()) statistics.error = failure_;
   }
 

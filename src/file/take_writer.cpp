@@ -13,7 +13,7 @@ using transport::refused;
 using transport::refused_by_system;
 using transport::SinkFault;
 using transport::SinkReason;
-using transport::Written;
+using transport::WriteResult;
 
 tl::unexpected<SinkFault> encode_fault(const wire::Fault& of_record) {
   return tl::unexpected(SinkFault{SinkReason::not_encodable, of_record});
@@ -31,17 +31,17 @@ TakeWriter::TakeWriter() { line_.reserve(2 * wire::max_datagram); }
 TakeWriter::TakeWriter(const std::string& path, const base::TimeCode& time_code, bool overwrite) : TakeWriter() {
   time_code_ = time_code;
   auto file = open_take(path, overwrite);
-  const Written opened = file ? open(*std::move(file)) : Written(tl::unexpected(file.error()));
+  const WriteResult opened = file ? open(*std::move(file)) : WriteResult(tl::unexpected(file.error()));
   if (!opened) throw transport::TransportError(path + ": cannot be written: " + transport::describe(opened.error()));
 }
 
 TakeWriter::~TakeWriter() { static_cast<void>(close()); }
 
-Written TakeWriter::open(PartFile file) {
+WriteResult TakeWriter::open(PartFile file) {
   file_ = std::move(file);
   size_ = 0;
   has_fields_ = false;
-  // Written now, so that a full disk is detected before the first field.
+  // WriteResult now, so that a full disk is detected before the first field.
   auto begun = append("DMC01\n");
   if (!begun) file_.discard();
   return begun;
@@ -54,7 +54,7 @@ tl::expected<std::string, SinkFault> TakeWriter::head() {
          std::string(*text) + "\n";
 }
 
-Written TakeWriter::write(const wire::CameraConstants& constants) {
+WriteResult TakeWriter::write(const wire::CameraConstants& constants) {
   if (ended_) return refused(SinkReason::closed);
   if (constants_ && constants.id != constants_->id) return refused(SinkReason::other_camera);
   if (has_fields_) {
@@ -68,7 +68,7 @@ Written TakeWriter::write(const wire::CameraConstants& constants) {
   return {};
 }
 
-Written TakeWriter::write(const wire::CameraParams& params) {
+WriteResult TakeWriter::write(const wire::CameraParams& params) {
   if (!is_open()) return refused(SinkReason::closed);
   if (!constants_) return refused(SinkReason::no_constants);
   const std::uint32_t any = constants_->id == 0 ? params.id : constants_->id;
@@ -91,7 +91,7 @@ Written TakeWriter::write(const wire::CameraParams& params) {
   return {};
 }
 
-Written TakeWriter::append(std::string_view lines) {
+WriteResult TakeWriter::append(std::string_view lines) {
   if (const auto written = file_.write(lines, size_); !written) {
     if (file_.is_fifo()) {
       file_.discard();
@@ -103,7 +103,7 @@ Written TakeWriter::append(std::string_view lines) {
   return {};
 }
 
-Written TakeWriter::close() {
+WriteResult TakeWriter::close() {
   ended_ = true;
   if (!is_open()) return {};
   const auto closed = finish();
@@ -112,7 +112,7 @@ Written TakeWriter::close() {
   return closed;
 }
 
-Written TakeWriter::finish() {
+WriteResult TakeWriter::finish() {
   if (!constants_) {
     file_.discard();
     return refused(SinkReason::no_constants);

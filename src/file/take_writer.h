@@ -37,7 +37,7 @@ class TakeWriter {
   TakeWriter& operator=(const TakeWriter&) = delete;
 
   /// Begins a take in this file. If that fails, the file is deleted.
-  [[nodiscard]] transport::Written open(PartFile);
+  [[nodiscard]] transport::WriteResult open(PartFile);
   bool is_open() const noexcept { return file_.is_open(); }
   /// The time code of the first field. No effect after that field.
   void set_time_code(const base::TimeCode& code) noexcept { time_code_ = code; }
@@ -47,14 +47,14 @@ class TakeWriter {
   /// Constants come before the first parameters; until then, newer ones of the same id replace older ones. Afterwards,
   /// equal ones are accepted and write nothing. Different ones of that id are a constants_changed fault, as are all
   /// parameters until the first constants come again. Other ids are other_camera.
-  [[nodiscard]] transport::Written write(const wire::CameraConstants&);
+  [[nodiscard]] transport::WriteResult write(const wire::CameraConstants&);
   /// Writes one video field; its id must be that of the constants. If that is 0, the id of the first field is used from
   /// then on. no_constants before the constants. A line that could not be written completely is not in the file. A FIFO
   /// that has lost its reader is closed.
-  [[nodiscard]] transport::Written write(const wire::CameraParams&);
+  [[nodiscard]] transport::WriteResult write(const wire::CameraParams&);
   /// Syncs the file to the disk and gives it its final name. Without constants, the result is no_constants and the file
   /// is deleted. If a system call fails, `PATH.part` remains. Closing again does nothing.
-  [[nodiscard]] transport::Written close();
+  [[nodiscard]] transport::WriteResult close();
 
   /// Ends and deletes a take that is not wanted.
   void discard() noexcept;
@@ -64,8 +64,8 @@ class TakeWriter {
  private:
   /// The lines between the first line and the fields.
   tl::expected<std::string, transport::SinkFault> head();
-  transport::Written append(std::string_view lines);
-  transport::Written finish();
+  transport::WriteResult append(std::string_view lines);
+  transport::WriteResult finish();
 
   PartFile file_;
   base::TimeCode time_code_;

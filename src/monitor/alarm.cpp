@@ -100,19 +100,19 @@ std::vector<bridge::Finding> raised(const std::vector<Alarm>& alarms, const Stat
   std::vector<bridge::Finding> found;
   for (const auto& alarm : alarms) {
     const auto& quantity = quantities[alarm.quantity];
-    const auto judge = [&](const std::string& who, std::optional<double> value) {
+    const auto check = [&](const std::string& who, std::optional<double> value) {
       if (!value || (alarm.is_above ? *value <= alarm.limit : *value >= alarm.limit)) return;
       found.push_back(
           {bridge::Condition::alarm, bridge::Level::error,
            "ALARM " + alarm.text + ": " + who + std::string(quantity.name) + " " + with_unit(*value, quantity)});
     };
-    if (quantity.of_source != nullptr) judge("", quantity.of_source(state));
+    if (quantity.of_source != nullptr) check("", quantity.of_source(state));
     if (quantity.of_camera == nullptr) continue;
     for (const auto& camera : state.cameras) {
-      judge("id " + std::to_string(camera.key.id) + ": ", quantity.of_camera(camera));
+      check("id " + std::to_string(camera.key.id) + ": ", quantity.of_camera(camera));
     }
-    if (state.cameras.empty() && quantity.of_camera == silence) judge("", state.age);
-    if (state.cameras.empty() && quantity.of_camera == rate && state.age >= least_window) judge("", 0);
+    if (state.cameras.empty() && quantity.of_camera == silence) check("", state.age);
+    if (state.cameras.empty() && quantity.of_camera == rate && state.age >= least_window) check("", 0);
   }
   return found;
 }

@@ -118,7 +118,7 @@ Model::Watched& Model::watched(std::uint32_t id, Time now) {
 }
 
 void Model::add_params(Track& track, const transport::Sample& sample, const wire::CameraParams& params, Time now) {
-  if (!base::is_new(track.sequence.judge(params.counter, wire::fingerprint(params)))) return;
+  if (!base::is_new(track.sequence.classify(params.counter, wire::fingerprint(params)))) return;
   track.latest = Latest{params, sample.has_lens, sample.encoders, sample.doubt, sample.origin, sample.time_code, now};
 
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -225,7 +225,7 @@ CameraState Model::state_of(const cli::Tally::Key& key, const Track& track, Time
   state.rate = track.arrivals.rate();
   state.jitter = track.arrivals.jitter();
   state.intervals = track.arrivals.intervals();
-  state.rest = track.poses.judge();
+  state.rest = track.poses.classify();
   // Does not own the history of the model.
   state.history = std::shared_ptr<const History>(std::shared_ptr<const History>(), &track.history);
 

@@ -40,7 +40,7 @@ struct ParamsState {
   double age = 0;                           ///< s since they were received
   /// No new parameters for more than one second and more than three intervals.
   bool is_silent = false;
-  std::optional<base::CountedTimeCode> time_code;
+  std::optional<base::TimeCodeWithRate> time_code;
   transport::LensEncoders encoders = {};
   const char* doubt = "";  ///< transport::Sample::doubt
 };
@@ -101,7 +101,7 @@ class Model {
     transport::LensEncoders encoders;
     const char* doubt;
     const char* origin;
-    std::optional<base::CountedTimeCode> time_code;
+    std::optional<base::TimeCodeWithRate> time_code;
     Time arrived;
   };
   /// One id of one sender.

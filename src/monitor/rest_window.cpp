@@ -17,7 +17,7 @@ void RestWindow::add(std::int64_t arrival, const PoseNumbers& pose) {
   while (arrival - entries_.front().arrival > length || entries_.size() > most) entries_.pop_front();
 }
 
-Rest RestWindow::judge() const {
+Rest RestWindow::classify() const {
   Rest rest;
   if (entries_.size() < fewest || (entries_.back().arrival - entries_.front().arrival) < length / 10 * 9) return rest;
   rest.motion = Motion::still;

@@ -33,7 +33,7 @@ class RestWindow {
  public:
   /// `arrival` in nanoseconds; if it is before the last one, the window is cleared.
   void add(std::int64_t arrival, const PoseNumbers&);
-  Rest judge() const;
+  Rest classify() const;
 
   static constexpr std::int64_t length = 3'000'000'000;  ///< ns
   static constexpr std::size_t most = 3000, fewest = 20;

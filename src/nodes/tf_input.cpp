@@ -86,7 +86,7 @@ bool TfInput::passes(const geometry_msgs::TransformStamped& transform, const std
   if (transform_filter_.ros_time_went_back(ros_now)) start_over();
   const bridge::StampedLink link{transform.header.frame_id, transform.child_frame_id,
                                  ros1::from_time(transform.header.stamp), sender};
-  const auto verdict = transform_filter_.judge(link, ros_now, base::steady_now());
+  const auto verdict = transform_filter_.classify(link, ros_now, base::steady_now());
   if (verdict == bridge::TransformFilter::Verdict::restart) start_over();
   return verdict != bridge::TransformFilter::Verdict::refuse;
 }

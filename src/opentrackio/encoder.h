@@ -22,7 +22,7 @@ class PacketEncoder final : public transport::Encoder {
   /// `source_id` is a urn:uuid.
   PacketEncoder(const WriterSettings& settings, Encoding encoding, const std::string& source_id);
 
-  void use_time(std::int64_t nanoseconds, const std::optional<base::CountedTimeCode>& code) noexcept override {
+  void use_time(std::int64_t nanoseconds, const std::optional<base::TimeCodeWithRate>& code) noexcept override {
     nanoseconds_ = nanoseconds;
     code_ = code;
   }
@@ -36,7 +36,7 @@ class PacketEncoder final : public transport::Encoder {
   Names names_;
   std::uint64_t samples_ = 0;
   std::int64_t nanoseconds_ = 0;
-  std::optional<base::CountedTimeCode> code_;
+  std::optional<base::TimeCodeWithRate> code_;
 
   std::string text_;       // of the sample
   std::size_t given_ = 0;  // bytes of it that next() has returned

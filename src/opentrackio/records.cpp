@@ -158,12 +158,12 @@ std::optional<std::int64_t> time_of(const Sample& sample, int tai_offset) noexce
 /// trk counts two fields per frame at rates above 30 Hz, and frames up to this rate.
 constexpr double highest_frame_rate = 30.5;
 
-std::optional<base::CountedTimeCode> time_code_of(const Sample& sample) noexcept {
+std::optional<base::TimeCodeWithRate> time_code_of(const Sample& sample) noexcept {
   for (const Id id : {Id::hours, Id::minutes, Id::seconds, Id::frames, Id::frame_rate_num, Id::frame_rate_denom}) {
     if (!sample.has_member(id)) return std::nullopt;
   }
   const auto whole = [&sample](Id id) { return static_cast<int>(sample.number(id)); };
-  base::CountedTimeCode counted;
+  base::TimeCodeWithRate counted;
   counted.rate = sample.number(Id::frame_rate_num) / sample.number(Id::frame_rate_denom);
   counted.code = {whole(Id::hours),
                   whole(Id::minutes),
@@ -193,7 +193,7 @@ Ratio ratio_of(double rate) noexcept {
   return {std::max(1.0, std::round(exact * 1e6)), 1e6};
 }
 
-void set_time_code(const base::CountedTimeCode& counted, Sample& sample) noexcept {
+void set_time_code(const base::TimeCodeWithRate& counted, Sample& sample) noexcept {
   const bool has_fields = counted.rate >= highest_frame_rate;
   const Ratio ratio = ratio_of(has_fields ? counted.rate / 2 : counted.rate);
   sample.set(Id::hours, counted.code.hours);
@@ -350,7 +350,7 @@ std::optional<transport::Fault> RecordsWriter::set_distortion(const camera::Lens
 
 tl::expected<Sample, transport::Fault> RecordsWriter::sample_of(
     const wire::CameraParams& params, std::int64_t nanoseconds,
-    const std::optional<base::CountedTimeCode>& time_code) noexcept {
+    const std::optional<base::TimeCodeWithRate>& time_code) noexcept {
   const std::uint32_t number = settings_.source != 0 ? settings_.source : params.id;
   if (number < 1 || number > highest_source) return tl::unexpected(fault_of(Reason::no_source_number));
   Camera& camera = bounded(cameras_, params.id);

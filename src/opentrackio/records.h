@@ -35,7 +35,7 @@ struct Records {
   std::optional<wire::CameraParams> params;
   bool has_counter = false, has_lens = false;
   std::optional<std::int64_t> sample_time;  ///< ns since 1970 UTC
-  std::optional<base::CountedTimeCode> time_code;
+  std::optional<base::TimeCodeWithRate> time_code;
   Lost lost = Lost::nothing;
   std::optional<transport::Fault> fault;  ///< of one part; the others are valid
 };
@@ -88,7 +88,7 @@ class RecordsWriter {
   tl::expected<void, transport::Fault> use(const wire::CameraConstants&) noexcept;
   /// `nanoseconds` since 1970 UTC.
   tl::expected<Sample, transport::Fault> sample_of(const wire::CameraParams&, std::int64_t nanoseconds,
-                                                   const std::optional<base::CountedTimeCode>&) noexcept;
+                                                   const std::optional<base::TimeCodeWithRate>&) noexcept;
 
  private:
   struct Camera {

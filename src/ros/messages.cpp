@@ -36,7 +36,7 @@ void to_msg(const wire::CameraConstants& constants, trk_bridge::CameraConstants&
   wire::copy_fields<wire::CameraConstants>(constants, message);
 }
 
-void to_msg(const base::CountedTimeCode& time_code, trk_bridge::TimeCode& message) {
+void to_msg(const base::TimeCodeWithRate& time_code, trk_bridge::TimeCode& message) {
   const auto part = [](int value) { return static_cast<std::uint8_t>(value); };
   message.hours = part(time_code.code.hours);
   message.minutes = part(time_code.code.minutes);
@@ -95,7 +95,7 @@ wire::CameraConstants from_msg(const trk_bridge::CameraConstants& message) {
   return constants;
 }
 
-base::CountedTimeCode from_msg(const trk_bridge::TimeCode& message) {
+base::TimeCodeWithRate from_msg(const trk_bridge::TimeCode& message) {
   return {{message.hours, message.minutes, message.seconds, message.frames, message.field, message.drop_frame != 0},
           message.rate};
 }

@@ -127,11 +127,11 @@ void DisplayProperties::add_axis_and_body(rviz::Property* display, const char* c
 
 void DisplayProperties::add_texts(rviz::Property* display, const char* changed) {
   // Not "Name": the configuration uses it for the name of the display.
-  const Group name(display, "Camera Name", "Written above the camera.", changed);
+  const Group name(display, "Camera Name", "WriteResult above the camera.", changed);
   name_ = {name.on(), name.text("Text", "Empty: the namespace of the CameraInfo topic."),
            name.colour({255, 255, 255}, "Of the letters."),
            name.number("Height", 0.18f, shortest, 100, "Of a capital letter, m.")};
-  const Group values(display, "Values", "Written below the camera.", changed);
+  const Group values(display, "Values", "WriteResult below the camera.", changed);
   values_ = {values.on(),
              values.colour({220, 220, 220}, "Of the letters."),
              values.number("Height", 0.12f, shortest, 100, "Of a capital letter, m."),

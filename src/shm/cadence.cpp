@@ -34,18 +34,18 @@ constexpr double least_deviation = 5'000;
 }  // namespace
 
 Cadence::Cadence(std::int64_t now) noexcept
-    : last_look_(now), last_found_(now), credit_(most_credit), learning_credit_(most_learning_credit) {}
+    : last_poll_(now), last_found_(now), credit_(most_credit), learning_credit_(most_learning_credit) {}
 
-void Cadence::looked(std::int64_t now, unsigned sets) noexcept {
+void Cadence::polled(std::int64_t now, unsigned sets) noexcept {
   pay(now);
-  expected_ -= static_cast<double>(now - last_look_);
+  expected_ -= static_cast<double>(now - last_poll_);
   if (sets > 0) {
     found(now, sets);
   } else if (is_known() && -expected_ > period_ / 2) {
     expected_ += period_;
     if (++missed_ > most_missed) forget();
   }
-  last_look_ = now;
+  last_poll_ = now;
   before_ = Before::nothing;
 }
 
@@ -56,7 +56,7 @@ void Cadence::slept(std::int64_t cost) noexcept {
 }
 
 void Cadence::pay(std::int64_t now) noexcept {
-  const auto since = static_cast<double>(now - last_look_);
+  const auto since = static_cast<double>(now - last_poll_);
   const double cost = before_ == Before::nothing ? std::min(since, sleep_cost_) : cost_;
   cost_ = 0;
   if (is_known() || learning_credit_ < sleep_cost_) {
@@ -74,7 +74,7 @@ void Cadence::pay(std::int64_t now) noexcept {
 }
 
 void Cadence::found(std::int64_t now, unsigned sets) noexcept {
-  const auto since = static_cast<double>(now - last_look_);
+  const auto since = static_cast<double>(now - last_poll_);
   if (!is_known()) return learn(now, sets);
   const bool is_faster = missed_ == 0 && since < (sets - 1) * period_ - 4 * deviation_;
   if (is_faster) {
@@ -110,7 +110,7 @@ void Cadence::found(std::int64_t now, unsigned sets) noexcept {
 
 // Uses two intervals: their mean is the period even if two writers alternate.
 void Cadence::learn(std::int64_t now, unsigned sets) noexcept {
-  const double half = static_cast<double>(now - last_look_) / 2;
+  const double half = static_cast<double>(now - last_poll_) / 2;
   const auto written = now - static_cast<std::int64_t>(half);
   const double interval = static_cast<double>(written - last_found_) / sets;
   const double uncertainty = std::max(half, least_deviation);
@@ -147,7 +147,7 @@ std::int64_t Cadence::next(std::int64_t now) noexcept {
   if (!is_known()) {
     sleep = sleep_while_unknown(now);
   } else {
-    const double ahead = expected_ - static_cast<double>(now - last_look_);
+    const double ahead = expected_ - static_cast<double>(now - last_poll_);
     const double end = ahead + window * deviation_;
     const bool can_pay = credit_ >= sleep_cost_;
     const double begin = (can_pay ? ahead - window * deviation_ - 2 * late_deviation_ : ahead + 2 * deviation_) - late_;

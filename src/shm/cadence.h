@@ -18,7 +18,7 @@ class Cadence {
   explicit Cadence(std::int64_t now) noexcept;
 
   /// Reports that a poll at `now` found this number of new sets.
-  void looked(std::int64_t now, unsigned sets) noexcept;
+  void polled(std::int64_t now, unsigned sets) noexcept;
   /// Reports the CPU time of the sleep before the next poll, ns.
   void slept(std::int64_t cost) noexcept;
   /// The time of the next poll. If it is not after `now`: at once.
@@ -48,13 +48,13 @@ class Cadence {
   double sleep_while_unknown(std::int64_t now) noexcept;
 
   double period_ = 0;
-  double expected_ = 0;  // the next set, ns after last_look_
+  double expected_ = 0;  // the next set, ns after last_poll_
   double deviation_ = 0;
   unsigned tracked_ = 0;  // sets since the period became known, up to a limit
   int outliers_ = 0;      // sets in a row at an unexpected time
   int missed_ = 0;        // expected times in a row without a set
 
-  std::int64_t last_look_, last_found_;
+  std::int64_t last_poll_, last_found_;
   double uncertainty_ = 0;  // ns, of last_found_
   double interval_ = 0;     // the last one, while the period is unknown; 0: none
   bool has_found_ = false;

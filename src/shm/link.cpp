@@ -64,18 +64,18 @@ bool has_constants(const Segment& segment) noexcept {
 
 }  // namespace
 
-bool Link::look_due(Clock::time_point now, std::chrono::milliseconds period) noexcept {
-  if (looked_ && now - *looked_ < period) return false;
-  looked_ = now;
+bool Link::begin_check_if_due(Clock::time_point now, std::chrono::milliseconds period) noexcept {
+  if (checked_ && now - *checked_ < period) return false;
+  checked_ = now;
   return true;
 }
 
 tl::expected<void, SlotFault> Link::keep_now(Clock::time_point now) noexcept {
   if (!segment_) {
-    if (absent_ && !look_due(now, attach_period)) return tl::unexpected(*absent_);
+    if (absent_ && !begin_check_if_due(now, attach_period)) return tl::unexpected(*absent_);
     return attach(nullptr, now);
   }
-  looked_ = now;
+  checked_ = now;
   if (const auto checked = check(true, nullptr, now); !checked) return checked;
   if (has_written_ || !is_alone_too_long(now)) return {};
   absent_ = release();
@@ -84,7 +84,7 @@ tl::expected<void, SlotFault> Link::keep_now(Clock::time_point now) noexcept {
 
 tl::expected<void, SlotFault> Link::keep_for_writing_now(Clock::time_point now) noexcept {
   if (!segment_) return attach(options_.create, now);
-  const bool is_due = look_due(now, check_period);
+  const bool is_due = begin_check_if_due(now, check_period);
   return check(is_due, options_.create, now);
 }
 
@@ -125,17 +125,17 @@ tl::expected<void, SlotFault> Link::check(bool look_up, const SegmentLayout* cre
   return {};
 }
 
-Link::Look Link::look() const noexcept {
+Link::Activity Link::activity() const noexcept {
   return {segment_->attach_info(), segment_->params_counter(), segment_->constants_counter()};
 }
 
 // A program may attach, write and detach between two checks: the times of the kernel or the counters show this.
 bool Link::is_alone_too_long(Clock::time_point now) noexcept {
-  const Look seen = look();
-  const bool is_quiet = seen.attach_info == last_look_.attach_info && seen.params == last_look_.params &&
-                        seen.constants == last_look_.constants;
-  last_look_ = seen;
-  if (seen.attach_info.attachments != 1) {
+  const Activity now_seen = activity();
+  const bool is_quiet = now_seen.attach_info == last_activity_.attach_info &&
+                        now_seen.params == last_activity_.params && now_seen.constants == last_activity_.constants;
+  last_activity_ = now_seen;
+  if (now_seen.attach_info.attachments != 1) {
     alone_since_.reset();
   } else if (!is_quiet || !alone_since_) {
     alone_since_ = now;
@@ -159,7 +159,7 @@ bool Link::is_still_abandoned() const noexcept {
 }
 
 tl::expected<void, SlotFault> Link::attach(const SegmentLayout* create, Clock::time_point now) noexcept {
-  looked_ = now;
+  checked_ = now;
   if (create == nullptr && is_still_abandoned()) return tl::unexpected(*absent_);
   auto segment = create != nullptr ? Segment::attach_or_create(options_.slot, *create, options_.mode)
                                    : Segment::attach(options_.slot);
@@ -176,9 +176,9 @@ tl::expected<void, SlotFault> Link::attach(const SegmentLayout* create, Clock::t
 }
 
 void Link::begin_reading(Clock::time_point now) noexcept {
-  last_look_ = look();
+  last_activity_ = activity();
   alone_since_.reset();
-  if (last_look_.attach_info.attachments == 1) alone_since_ = now;
+  if (last_activity_.attach_info.attachments == 1) alone_since_ = now;
   const bool is_known = abandoned_ && abandoned_->id == segment_->id();
   abandoned_.reset();
   if (is_known) return;

@@ -106,7 +106,7 @@ class Link {
 
  private:
   /// Attached programs and write counters at one moment.
-  struct Look {
+  struct Activity {
     AttachInfo attach_info;
     std::uint16_t params = 0, constants = 0;  ///< write counters
   };
@@ -120,11 +120,11 @@ class Link {
   tl::expected<void, SlotFault> check(bool look_up, const SegmentLayout* create, Clock::time_point now) noexcept;
   void begin_reading(Clock::time_point now) noexcept;
   /// Whether the last check of the segment is recent enough.
-  bool is_kept(Clock::time_point now) const noexcept { return segment_ && looked_ && now - *looked_ < check_period; }
+  bool is_kept(Clock::time_point now) const noexcept { return segment_ && checked_ && now - *checked_ < check_period; }
   tl::expected<void, SlotFault> keep_now(Clock::time_point now) noexcept;
   tl::expected<void, SlotFault> keep_for_writing_now(Clock::time_point now) noexcept;
-  bool look_due(Clock::time_point now, std::chrono::milliseconds period) noexcept;
-  Look look() const noexcept;
+  bool begin_check_if_due(Clock::time_point now, std::chrono::milliseconds period) noexcept;
+  Activity activity() const noexcept;
   bool is_alone_too_long(Clock::time_point now) noexcept;
   SlotFault release() noexcept;
   bool is_still_abandoned() const noexcept;
@@ -137,7 +137,7 @@ class Link {
   Options options_;
   std::optional<Segment> segment_;
   std::optional<SlotFault> absent_;  // why there was no segment at the last check
-  std::optional<Clock::time_point> looked_;
+  std::optional<Clock::time_point> checked_;
   std::uint16_t params_read_ = 0;
   std::uint16_t constants_read_ = 0;
   bool constants_unread_ = false;
@@ -148,7 +148,7 @@ class Link {
   wire::Layout read_in_{};
   bool had_others_ = false;
   bool has_written_ = false;
-  Look last_look_;
+  Activity last_activity_;
   std::optional<Clock::time_point> alone_since_;
   std::optional<Abandoned> abandoned_;
   std::optional<wire::CameraConstants> written_constants_;

@@ -12,7 +12,7 @@ namespace {
 using transport::SinkFault;
 using transport::SinkReason;
 using transport::TransportError;
-using transport::Written;
+using transport::WriteResult;
 
 Link::Options options_of(const Settings& settings) {
   if (settings.slot < 0 || settings.slot >= slot_count) {
@@ -34,7 +34,7 @@ Link::Options options_of(const Settings& settings) {
 SinkFault fault_of(const SlotFault& fault) noexcept {
   if (fault.problem == SlotProblem::file_refused || fault.problem == SlotProblem::system)
     return {SinkReason::system, {}, fault.error_number};
-  return {SinkReason::gone};
+  return {SinkReason::no_segment};
 }
 
 /// If the segment was removed or replaced, the next write recreates it; `gone` and `system` mean that this failed.
@@ -52,15 +52,15 @@ class ShmSink final : public transport::Sink {
     if (!open) throw TransportError("shm " + describe(open.error()));
     if (!link_.segment()->writable()) throw TransportError(name_ + ": no permission to write to the segment");
   }
-  Written put(const wire::CameraParams& params) override { return write_record(params); }
-  Written put(const wire::CameraConstants& constants) override { return write_record(constants); }
-  Written finish() override {
+  WriteResult put(const wire::CameraParams& params) override { return write_record(params); }
+  WriteResult put(const wire::CameraConstants& constants) override { return write_record(constants); }
+  WriteResult finish() override {
     link_.close();
     return {};
   }
 
   template <typename Record>
-  Written write_record(const Record& record) {
+  WriteResult write_record(const Record& record) {
     if (const auto kept = link_.keep_for_writing(Link::Clock::now()); !kept) {
       return tl::make_unexpected(fault_of(kept.error()));
     }

@@ -194,7 +194,7 @@ class ShmSource final : public transport::CountedSource {
   void learn(Clock::time_point now, unsigned sets) noexcept {
     // A set that was replaced before it was read may have been from another writer.
     if (sets > 1 || (sets > 0 && !link_.segment()->is_announced())) look_until_ = now + quiet_writer_memory;
-    if (!is_woken(now)) cadence_.looked(nanoseconds_of(now), sets);
+    if (!is_woken(now)) cadence_.polled(nanoseconds_of(now), sets);
   }
 
   /// Constants first, because parameters are decoded with them.

@@ -53,7 +53,7 @@ class Encoder {
 
   /// The time for which the parameters of the next begin() are valid: `nanoseconds` since 1970 UTC. For protocols that
   /// have a time.
-  virtual void use_time(std::int64_t /*nanoseconds*/, const std::optional<base::CountedTimeCode>& /*code*/) noexcept {}
+  virtual void use_time(std::int64_t /*nanoseconds*/, const std::optional<base::TimeCodeWithRate>& /*code*/) noexcept {}
   /// Sets the record whose datagrams next() returns.
   [[nodiscard]] virtual tl::expected<void, Fault> begin(const wire::CameraParams&) noexcept = 0;
   [[nodiscard]] virtual tl::expected<void, Fault> begin(const wire::CameraConstants&) noexcept = 0;

@@ -93,9 +93,9 @@ class DatagramSink final : public Sink {
     std::optional<steady_clock::time_point> last_sent;  // none: not sent yet
   };
 
-  Written put(const wire::CameraParams& params) override;
-  Written put(const wire::CameraConstants& constants) override;
-  Written finish() override {
+  WriteResult put(const wire::CameraParams& params) override;
+  WriteResult put(const wire::CameraConstants& constants) override;
+  WriteResult finish() override {
     watch_.reset();
     socket_.close();
     return {};
@@ -103,8 +103,8 @@ class DatagramSink final : public Sink {
   void follow_interface();
   bool follow_interface_or_wait() noexcept;
   template <typename Record>
-  Written send(const Record& record) noexcept;
-  Written send_datagram(std::string_view datagram) noexcept;
+  WriteResult send(const Record& record) noexcept;
+  WriteResult send_datagram(std::string_view datagram) noexcept;
 
   const SocketAddress target_;
   Descriptor socket_;
@@ -135,7 +135,7 @@ bool DatagramSink::follow_interface_or_wait() noexcept {
   }
 }
 
-Written DatagramSink::send_datagram(std::string_view datagram) noexcept {
+WriteResult DatagramSink::send_datagram(std::string_view datagram) noexcept {
   if (!can_send_) return refused(SinkReason::no_interface);
   ssize_t written;
   do {
@@ -148,7 +148,7 @@ Written DatagramSink::send_datagram(std::string_view datagram) noexcept {
 }
 
 template <typename Record>
-Written DatagramSink::send(const Record& record) noexcept {
+WriteResult DatagramSink::send(const Record& record) noexcept {
   if (const auto begun = encoder_->begin(record); !begun) {
     return tl::make_unexpected(SinkFault{SinkReason::not_encodable, begun.error()});
   }
@@ -158,8 +158,8 @@ Written DatagramSink::send(const Record& record) noexcept {
   return {};
 }
 
-Written DatagramSink::put(const wire::CameraParams& params) {
-  Written constants_sent;
+WriteResult DatagramSink::put(const wire::CameraParams& params) {
+  WriteResult constants_sent;
   if (const auto found = remembered_.find(params.id); found != remembered_.end()) {
     Remembered& remembered = found->second;
     const auto now = steady_clock::now();
@@ -173,15 +173,15 @@ Written DatagramSink::put(const wire::CameraParams& params) {
     }
   }
   encoder_->use_time(time().nanoseconds != 0 ? time().nanoseconds : base::wall_now(), time().time_code);
-  const Written params_sent = send(params);
+  const WriteResult params_sent = send(params);
   if (!params_sent) return params_sent;
   // Because of the fault of the constants, write() does not count the parameters.
   if (!constants_sent) count_params();
   return constants_sent;
 }
 
-Written DatagramSink::put(const wire::CameraConstants& constants) {
-  const Written sent = send(constants);
+WriteResult DatagramSink::put(const wire::CameraConstants& constants) {
+  const WriteResult sent = send(constants);
   // Constants that can never be sent are not repeated.
   if (!sent && sent.error().reason == SinkReason::not_encodable) return sent;
   Remembered& remembered = remembered_[constants.id];

@@ -28,13 +28,13 @@ std::string describe(const SinkFault& fault) {
       return "the system refused: " + std::generic_category().message(fault.error_number);
     case SinkReason::no_interface:
       return "the interface to send through does not exist or has no address; sending continues when it has one";
-    case SinkReason::gone:
+    case SinkReason::no_segment:
       return "there is no segment to write to; every write looks for one or creates it";
     case SinkReason::closed:
       return "the sink is closed";
     case SinkReason::exists:
       return "it exists; to overwrite it, use overwrite=1 or --overwrite";
-    case SinkReason::left_over:
+    case SinkReason::part_exists:
       return "its .part is from an interrupted writer; move it away, or use --overwrite";
     case SinkReason::in_use:
       return "another writer is writing it";
@@ -50,7 +50,7 @@ std::string describe(const SinkFault& fault) {
   return "unknown fault";
 }
 
-Written Sink::counted(const Written& written, std::uint64_t& good) noexcept {
+WriteResult Sink::counted(const WriteResult& written, std::uint64_t& good) noexcept {
   ++(written ? good : counts_.errors);
   published_.store(counts_);
   return written;
@@ -60,16 +60,16 @@ void Sink::prepare() {
   if (!closed_) get_ready();
 }
 
-Written Sink::write(const wire::CameraParams& params, const RecordTime& time) {
+WriteResult Sink::write(const wire::CameraParams& params, const RecordTime& time) {
   time_ = time;
-  return counted(closed_ ? Written(refused(SinkReason::closed)) : put(params), counts_.params);
+  return counted(closed_ ? WriteResult(refused(SinkReason::closed)) : put(params), counts_.params);
 }
 
-Written Sink::write(const wire::CameraConstants& constants) {
-  return counted(closed_ ? Written(refused(SinkReason::closed)) : put(constants), counts_.constants);
+WriteResult Sink::write(const wire::CameraConstants& constants) {
+  return counted(closed_ ? WriteResult(refused(SinkReason::closed)) : put(constants), counts_.constants);
 }
 
-Written Sink::close() {
+WriteResult Sink::close() {
   if (closed_) return {};
   closed_ = true;
   std::uint64_t not_counted = 0;

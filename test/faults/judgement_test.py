@@ -99,7 +99,7 @@ class Flat(unittest.TestCase):
 
     def is_flat(self, values, key=KEY):
         rows = [{"time": 10.0 * (index + 1), key: value} for index, value in enumerate(values)]
-        return verdict.judge(rows)[1]
+        return verdict.classify(rows)[1]
 
     def test_noise_and_single_peaks_are_flat(self):
         rng = random.Random(1)

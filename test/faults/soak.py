@@ -209,7 +209,7 @@ def run(studio, minutes, rng, on_sample):
         row = {"time": now - begin, "load": os.getloadavg()[0]}
         for name, count in counts.items():
             row[f"rate {name}"] = (count - before[name]) / (now - last)
-        # Milliseconds. A sample without messages is judged at the end.
+        # Milliseconds. A sample without messages is checked at the end.
         row["latency median"] = 1e3 * statistics.median(ages) if ages else float("nan")
         row["latency 99 %"] = 1e3 * ages[len(ages) * 99 // 100] if ages else float("nan")
         for name, process in studio.nodes.items():
@@ -260,7 +260,7 @@ def main():
     if len(rows) < 6:
         print(f"{len(rows)} samples are too few: give it a minute or more")
         return 1
-    lines, is_flat = verdict.judge(rows)
+    lines, is_flat = verdict.classify(rows)
     arrived = sum(studio.counts().values())
     wrong += verdict.stopped(rows)
     summary = (f"{options.minutes:g} minutes, {len(rows)} samples, {len(done)} faults; {sent} sets of each of 16 cameras "

@@ -27,7 +27,7 @@ def series(rows, key):
     return [(row["time"], row[key]) for row in rows if not math.isnan(row[key])]
 
 
-def judge(rows):
+def classify(rows):
     """Rows of the table, and whether all is flat. Growth is slope times duration."""
     lines, all_flat = [("quantity", "begin", "end", "slope", "growth", "allowed", "verdict")], True
     counted = [row for row in rows if row["time"] >= WARM_UP * rows[-1]["time"]]

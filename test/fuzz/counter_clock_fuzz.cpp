@@ -33,7 +33,7 @@ class Camera {
 
   void take(std::uint64_t counter, std::int64_t arrival) {
     const auto accepted = sequence_.counts().accepted;
-    const base::Order order = sequence_.judge(counter, counter);
+    const base::Order order = sequence_.classify(counter, counter);
     claim(sequence_.counts().accepted == accepted + (is_new(order) ? 1 : 0), "a verdict that is not counted");
     claim(order == base::Order::next || sequence_.step() == 0, "a step without a next one");
     if (!is_new(order)) return;

@@ -50,7 +50,7 @@ class CraneRoundTrip : public ::testing::TestWithParam<const char*> {
         launched_("crane.launch", {"rviz:=false", "endpoint:=" + port_.url(), std::string("preset:=") + GetParam()}) {}
 
   /// Everything that is compared has been received once: the nodes are connected.
-  bool all_come() const {
+  bool has_received_all() const {
     return !sent_.messages.empty() && !returned_.messages.empty() && !crane_info_.messages.empty() &&
            !returned_info_.messages.empty() && transforms_.canTransform("studio", "camera_optical", ::ros::Time()) &&
            transforms_.canTransform("studio", "returned_optical", ::ros::Time());
@@ -145,7 +145,7 @@ class CraneRoundTrip : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(CraneRoundTrip, BothCamerasCoincide) {
-  ASSERT_TRUE(eventually([this] { return all_come(); })) << launched_.end();
+  ASSERT_TRUE(eventually([this] { return has_received_all(); })) << launched_.end();
   const auto end = std::chrono::steady_clock::now() + deadline;
   Compared compared;
   do {

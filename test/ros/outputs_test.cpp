@@ -57,7 +57,7 @@ class LiveReceiver {
             const auto* params = read ? std::get_if<wire::CameraParams>(&read->record) : nullptr;
             if (params == nullptr) continue;
             const std::lock_guard<std::mutex> lock(mutex_);
-            came_.emplace_back(params->counter, steady_clock::now());
+            received_.emplace_back(params->counter, steady_clock::now());
           }
         }) {}
   ~LiveReceiver() {
@@ -70,13 +70,13 @@ class LiveReceiver {
   std::string url() const { return "udp://127.0.0.1:" + std::to_string(socket_.port()); }
   std::vector<std::pair<std::uint64_t, steady_clock::time_point>> received() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return came_;
+    return received_;
   }
 
  private:
   const PlainSocket socket_;
   mutable std::mutex mutex_;
-  std::vector<std::pair<std::uint64_t, steady_clock::time_point>> came_;
+  std::vector<std::pair<std::uint64_t, steady_clock::time_point>> received_;
   std::atomic<bool> stops_{false};
   std::thread thread_;
 };

@@ -33,11 +33,11 @@ class Roslaunch {
   }
   /// Waits until it ends by itself and returns its output.
   std::string wait() {
-    if (ended_) return said_;
+    if (ended_) return output_;
     ended_ = true;
-    said_ = roslaunch_.rest_of_out() + roslaunch_.rest_of_err();
-    EXPECT_EQ(roslaunch_.wait(), 0) << said_;
-    return said_;
+    output_ = roslaunch_.rest_of_out() + roslaunch_.rest_of_err();
+    EXPECT_EQ(roslaunch_.wait(), 0) << output_;
+    return output_;
   }
 
  private:
@@ -52,7 +52,7 @@ class Roslaunch {
   }
 
   Program roslaunch_;
-  std::string said_;
+  std::string output_;
   bool ended_ = false;
 };
 

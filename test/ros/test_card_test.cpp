@@ -360,13 +360,13 @@ TEST_F(TestCard, PairsEveryRectifiedImageWithItsCameraInfo) {
   ASSERT_NO_FATAL_FAILURE(start_card());
   // The order between topics is undefined.
   constexpr std::size_t count = 5;
-  const auto have_come = [&](const auto& recorder) {
+  const auto has_enough = [&](const auto& recorder) {
     return std::all_of(images.messages.begin(), images.messages.begin() + count, [&](const sensor_msgs::Image& image) {
       return with_stamp(recorder.messages, image.header.stamp) != nullptr;
     });
   };
   ASSERT_TRUE(send_until([](int i) { return at(0, -5, 0, 0.5 + 0.5 * std::cos(i * 0.04)); },
-                         [&] { return images.messages.size() >= count && have_come(infos) && have_come(*infos_); }));
+                         [&] { return images.messages.size() >= count && has_enough(infos) && has_enough(*infos_); }));
   for (std::size_t i = 0; i < count; ++i) {
     const auto& stamp = images.messages[i].header.stamp;
     const auto& info = *with_stamp(infos.messages, stamp);

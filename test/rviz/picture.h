@@ -1,5 +1,5 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-// A picture of the 3D view, judged by colour.
+// A picture of the 3D view, measured by colour.
 #pragma once
 
 #include <string>

@@ -84,7 +84,7 @@ class SinkControl {
     changed_.wait(lock, [&] { return may_open_; });
     if (!opening_error_.empty()) throw transport::TransportError(opening_error_);
   }
-  transport::Written write(const wire::Record& record) {
+  transport::WriteResult write(const wire::Record& record) {
     std::unique_lock<std::mutex> lock(mutex_);
     if (delay_ > delay_.zero()) {
       const auto delay = delay_;
@@ -147,9 +147,9 @@ class ControlledSink final : public transport::Sink {
 
  private:
   void get_ready() override { control_->prepare(); }
-  transport::Written put(const wire::CameraParams& params) override { return control_->write(params); }
-  transport::Written put(const wire::CameraConstants& constants) override { return control_->write(constants); }
-  transport::Written finish() override {
+  transport::WriteResult put(const wire::CameraParams& params) override { return control_->write(params); }
+  transport::WriteResult put(const wire::CameraConstants& constants) override { return control_->write(constants); }
+  transport::WriteResult finish() override {
     control_->close();
     return {};
   }

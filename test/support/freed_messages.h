@@ -105,7 +105,7 @@ inline std::string broken_freed_claim(std::string_view datagram, freed::DecoderO
   const auto again = freed::bytes_of(read->message);
   if (std::string_view(again.data(), 28) != datagram.substr(0, 28)) return "other bytes when written again";
   const bool same_checksum = again.back() == datagram.back();
-  if (same_checksum != read->checksum_fits) return "a checksum judged wrongly";
+  if (same_checksum != read->checksum_fits) return "a wrong result for a checksum";
   if (!same_checksum && (!lenient || std::string_view(sample.doubt) != "wrong checksum")) {
     return "a wrong checksum without a word";
   }

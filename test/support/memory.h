@@ -104,10 +104,10 @@ class MemorySink final : public transport::Sink {
   std::string name() const override { return "memory"; }
 
  private:
-  transport::Written put(const wire::CameraParams& params) override { return push(params); }
-  transport::Written put(const wire::CameraConstants& constants) override { return push(constants); }
-  transport::Written finish() override { return {}; }
-  transport::Written push(const wire::Record& record) {
+  transport::WriteResult put(const wire::CameraParams& params) override { return push(params); }
+  transport::WriteResult put(const wire::CameraConstants& constants) override { return push(constants); }
+  transport::WriteResult finish() override { return {}; }
+  transport::WriteResult push(const wire::Record& record) {
     MemoryQueue::Entry entry;
     entry.reception.sample.record = record;
     entry.reception.sample.arrival = base::wall_now();

@@ -61,7 +61,7 @@ class Sequence {
 
   /// Classifies the counter of the next record and counts the result. `fingerprint` is equal for equal records and
   /// almost never for others; only CounterUse::automatic uses it.
-  Order judge(std::uint64_t counter, std::uint64_t fingerprint = 0) noexcept;
+  Order classify(std::uint64_t counter, std::uint64_t fingerprint = 0) noexcept;
   /// The next record comes from another sender: its counter is the first one.
   void forget_newest() noexcept { newest_.reset(); }
 

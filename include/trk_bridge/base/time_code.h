@@ -27,7 +27,7 @@ inline bool operator==(const TimeCode& a, const TimeCode& b) noexcept {
 inline bool operator!=(const TimeCode& a, const TimeCode& b) noexcept { return !(a == b); }
 
 /// A time code and the rate of the samples that it counts.
-struct CountedTimeCode {
+struct TimeCodeWithRate {
   TimeCode code;
   double rate = 0;  ///< Hz, of samples; 0: not known
 };

@@ -23,7 +23,7 @@ namespace trk_bridge::ros1 {
 void to_msg(const wire::CameraParams& params, trk_bridge::CameraParams& message);
 void to_msg(const wire::CameraConstants& constants, trk_bridge::CameraConstants& message);
 
-void to_msg(const base::CountedTimeCode& time_code, trk_bridge::TimeCode& message);
+void to_msg(const base::TimeCodeWithRate& time_code, trk_bridge::TimeCode& message);
 
 /// Unknown counts are 0.
 void to_msg(std::uint32_t id, const transport::LensEncoders& encoders, trk_bridge::LensEncoders& message);
@@ -40,6 +40,6 @@ std::int64_t from_time(const ::ros::Time& time) noexcept;
 /// The inverse, field by field. Headers are not used.
 wire::CameraParams from_msg(const trk_bridge::CameraParams& message);
 wire::CameraConstants from_msg(const trk_bridge::CameraConstants& message);
-base::CountedTimeCode from_msg(const trk_bridge::TimeCode& message);
+base::TimeCodeWithRate from_msg(const trk_bridge::TimeCode& message);
 
 }  // namespace trk_bridge::ros1

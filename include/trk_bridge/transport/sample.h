@@ -104,7 +104,7 @@ struct Sample {
   /// When the sender sampled the camera, by the clock of the sender, ns since 1970 UTC; none if the protocol has no
   /// time.
   std::optional<std::int64_t> sample_time;
-  std::optional<base::CountedTimeCode> time_code;  ///< none if the protocol has none
+  std::optional<base::TimeCodeWithRate> time_code;  ///< none if the protocol has none
 };
 
 /// "ASCII", "binary identified_lp64", "binary document_i386_be", followed by ", layout guessed" if two layouts were

@@ -22,10 +22,10 @@ enum class SinkReason : std::uint8_t {
   other_camera,       ///< a file has one camera: the id is not that of its constants
   system,             ///< the kernel refused: `error_number`
   no_interface,  ///< the interface to send through does not exist or has no address; sending continues when it has one
-  gone,          ///< there is no segment to write to: every write looks for one, or creates it
+  no_segment,    ///< there is no segment to write to: every write looks for one, or creates it
   closed,        ///< close() was called before
   exists,        ///< the file exists, and overwriting was not requested
-  left_over,     ///< a `.part` of an interrupted writer exists
+  part_exists,   ///< a `.part` of an interrupted writer exists
   in_use,        ///< another writer writes a file of the same name
   not_a_file,    ///< the name belongs to something that is neither a regular file nor a FIFO
   no_reader,     ///< no program reads the FIFO
@@ -53,15 +53,15 @@ struct SinkStatistics {
 /// The time for which a record is valid.
 struct RecordTime {
   // NOLINTNEXTLINE(google-explicit-constructor): a time without a code is complete
-  RecordTime(std::int64_t since_1970 = 0, std::optional<base::CountedTimeCode> code = {}) noexcept
+  RecordTime(std::int64_t since_1970 = 0, std::optional<base::TimeCodeWithRate> code = {}) noexcept
       : nanoseconds(since_1970), time_code(code) {}
 
   std::int64_t nanoseconds;  ///< since 1970 UTC; 0: now
-  std::optional<base::CountedTimeCode> time_code;
+  std::optional<base::TimeCodeWithRate> time_code;
 };
 
 /// The result of a write or a close.
-using Written = tl::expected<void, SinkFault>;
+using WriteResult = tl::expected<void, SinkFault>;
 /// A fault to return.
 inline tl::unexpected<SinkFault> refused(SinkReason reason) noexcept { return tl::unexpected(SinkFault{reason}); }
 /// A fault to return for an errno.
@@ -85,11 +85,11 @@ class Sink {
   /// already.
   void prepare();
   /// Writes one set of parameters. A datagram sink first sends the constants of the same id if their period has passed.
-  [[nodiscard]] Written write(const wire::CameraParams&, const RecordTime& time = {});
-  [[nodiscard]] Written write(const wire::CameraConstants&);
+  [[nodiscard]] WriteResult write(const wire::CameraParams&, const RecordTime& time = {});
+  [[nodiscard]] WriteResult write(const wire::CameraConstants&);
   /// Closes the sink: a file gets its final name. Closing again does nothing. The destructor closes as well, but cannot
   /// report errors.
-  [[nodiscard]] Written close();
+  [[nodiscard]] WriteResult close();
 
   /// A consistent snapshot. Any thread.
   SinkStatistics statistics() const noexcept { return published_.load(); }
@@ -110,10 +110,10 @@ class Sink {
 
  private:
   virtual void get_ready() {}
-  virtual Written put(const wire::CameraParams&) = 0;
-  virtual Written put(const wire::CameraConstants&) = 0;
-  virtual Written finish() = 0;
-  Written counted(const Written&, std::uint64_t& good) noexcept;
+  virtual WriteResult put(const wire::CameraParams&) = 0;
+  virtual WriteResult put(const wire::CameraConstants&) = 0;
+  virtual WriteResult finish() = 0;
+  WriteResult counted(const WriteResult&, std::uint64_t& good) noexcept;
 
   bool closed_ = false;
   RecordTime time_;

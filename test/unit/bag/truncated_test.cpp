@@ -20,7 +20,7 @@ using test::read_text;
 using test::write_text;
 using testing::HasSubstr;
 
-class CutBag : public BagTest {
+class TruncatedBag : public BagTest {
  protected:
   std::string bag_text(const std::string& compression) {
     TakeToBagOptions options;
@@ -51,7 +51,7 @@ class CutBag : public BagTest {
   const std::vector<std::string> all = bits_of(sent.params);
 };
 
-TEST_F(CutBag, GivesEveryCompleteRecordForAnyLength) {
+TEST_F(TruncatedBag, GivesEveryCompleteRecordForAnyLength) {
   const std::string bytes = bag_text("none");
   std::size_t before = 0;
   for (std::size_t size = 0; size < bytes.size(); size += 37'077) {
@@ -65,7 +65,7 @@ TEST_F(CutBag, GivesEveryCompleteRecordForAnyLength) {
   EXPECT_THAT(err.str(), HasSubstr("cut.bag is truncated: "));
 }
 
-TEST_F(CutBag, ATruncatedRecordIsIgnored) {
+TEST_F(TruncatedBag, ATruncatedRecordIsIgnored) {
   const std::string bytes = bag_text("none");
   const std::size_t from = bytes.size() / 3;
   std::size_t steps = 0;
@@ -79,7 +79,7 @@ TEST_F(CutBag, ATruncatedRecordIsIgnored) {
   EXPECT_GE(steps, 1u);
 }
 
-TEST_F(CutBag, TruncatedCompressedChunksGiveWhatCanBeUnpacked) {
+TEST_F(TruncatedBag, TruncatedCompressedChunksGiveWhatCanBeUnpacked) {
   for (const char* compression : {"bz2", "lz4"}) {
     const std::string bytes = bag_text(compression);
     std::size_t before = 0;
@@ -93,7 +93,7 @@ TEST_F(CutBag, TruncatedCompressedChunksGiveWhatCanBeUnpacked) {
   }
 }
 
-TEST_F(CutBag, MessagesOfACrashedRecorderAreRead) {
+TEST_F(TruncatedBag, MessagesOfACrashedRecorderAreRead) {
   // Compressed bags are written in chunks of 768 KiB.
   const std::vector<wire::CameraParams> long_take = some_fields(6000);
   const auto long_bits = bits_of(long_take);
@@ -130,7 +130,7 @@ TEST_F(CutBag, MessagesOfACrashedRecorderAreRead) {
   }
 }
 
-TEST_F(CutBag, DamageNeverCrashes) {
+TEST_F(TruncatedBag, DamageNeverCrashes) {
   std::mt19937 random(1998);
   for (const char* compression : {"none", "bz2", "lz4"}) {
     const std::string whole = bag_text(compression);
@@ -153,7 +153,7 @@ TEST_F(CutBag, DamageNeverCrashes) {
   }
 }
 
-TEST_F(CutBag, FilesThatAreNotBagsAreRefused) {
+TEST_F(TruncatedBag, FilesThatAreNotBagsAreRefused) {
   write_text(directory / "cut.bag", "DMC01\n");
   EXPECT_THAT(refusal(directory / "cut.bag"), HasSubstr("not a bag"));
   write_text(directory / "cut.bag", "#ROSBAG V2.0\n");

@@ -25,9 +25,9 @@ class NoSink final : public transport::Sink {
   std::string name() const override { return "nothing"; }
 
  private:
-  transport::Written put(const wire::CameraParams&) override { return {}; }
-  transport::Written put(const wire::CameraConstants&) override { return {}; }
-  transport::Written finish() override { return {}; }
+  transport::WriteResult put(const wire::CameraParams&) override { return {}; }
+  transport::WriteResult put(const wire::CameraConstants&) override { return {}; }
+  transport::WriteResult finish() override { return {}; }
 };
 
 OutletWriter writer_of(Feed feed) {

@@ -68,7 +68,7 @@ struct Replay {
     base::Sequence sequence(50, base::CounterUse::automatic);
     std::int64_t before = 0;
     for (const Delivered& sample : deliver(signal)) {
-      if (!base::is_new(sequence.judge(sample.counter, sample.counter + 1))) continue;
+      if (!base::is_new(sequence.classify(sample.counter, sample.counter + 1))) continue;
       const std::int64_t stamp = clock.stamp(sequence.step(), sample.arrival);
       stamped.push_back({sample, stamp, found.learned});
       const bool is_valid = stamp <= sample.arrival && stamp >= sample.arrival - 500'000'000 && stamp > before;

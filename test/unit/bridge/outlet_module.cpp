@@ -21,14 +21,14 @@ class FifoSink final : public transport::Sink {
   std::string name() const override { return "fifo"; }
 
  private:
-  transport::Written put_byte() const {
+  transport::WriteResult put_byte() const {
     const char byte = 'x';
     if (::write(fd_, &byte, 1) == 1) return {};
     return tl::unexpected(transport::SinkFault{transport::SinkReason::system, {}, errno});
   }
-  transport::Written put(const wire::CameraParams&) override { return put_byte(); }
-  transport::Written put(const wire::CameraConstants&) override { return put_byte(); }
-  transport::Written finish() override { return {}; }
+  transport::WriteResult put(const wire::CameraParams&) override { return put_byte(); }
+  transport::WriteResult put(const wire::CameraConstants&) override { return put_byte(); }
+  transport::WriteResult finish() override { return {}; }
 
   const int fd_;
 };

@@ -239,7 +239,7 @@ TEST(Outlet, RefusedWritesAreCountedAndOpeningIsNotRetriedForEveryRecord) {
   SinkControl control;
   control.open();
   control.set_opening_error("slot 7: unknown");
-  control.set_fault(transport::SinkFault{transport::SinkReason::gone});
+  control.set_fault(transport::SinkFault{transport::SinkReason::no_segment});
   Outlet outlet(endpoint_of(control, Blocking::attaching), {});
   ASSERT_TRUE(control.was_tried(1));
   for (std::uint64_t counter = 1; counter <= 50; ++counter) outlet.write(params(counter));

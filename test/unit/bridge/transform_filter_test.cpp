@@ -20,14 +20,14 @@ class TransformFilterTest : public ::testing::Test {
 
   TransformFilterTest() { filter.add_static("studio", "rail"); }
 
-  Verdict judge(const std::string& child, std::int64_t stamp) {
+  Verdict classify(const std::string& child, std::int64_t stamp) {
     const std::string parent = child == "camera" ? "rail" : "elsewhere";
-    return filter.judge({parent, child, stamp, "/driver"}, start + now, now);
+    return filter.classify({parent, child, stamp, "/driver"}, start + now, now);
   }
   /// One field later, a transform with a clock error of `offset`.
   Verdict next(std::int64_t offset = 0, const std::string& child = "camera") {
     now += field;
-    return judge(child, start + now + offset);
+    return classify(child, start + now + offset);
   }
   /// How many fields in a row the filter refuses.
   int refused_in_a_row(std::int64_t offset, const std::string& child = "camera", int most = 1000) {
@@ -43,15 +43,15 @@ class TransformFilterTest : public ::testing::Test {
 
 TEST_F(TransformFilterTest, TransformsInTimeAreUsed) {
   for (int n = 0; n < 100; ++n) EXPECT_EQ(next(), Verdict::use);
-  EXPECT_EQ(judge("camera", start + now - second / 2), Verdict::use) << "late";
-  EXPECT_EQ(judge("camera", start + now + second / 2), Verdict::use) << "dated ahead by its publisher";
+  EXPECT_EQ(classify("camera", start + now - second / 2), Verdict::use) << "late";
+  EXPECT_EQ(classify("camera", start + now + second / 2), Verdict::use) << "dated ahead by its publisher";
   EXPECT_EQ(filter.statistics().refused, 0u);
 }
 
 TEST_F(TransformFilterTest, ATransformFarAheadIsRefused) {
   for (int n = 0; n < 200; ++n) {
     EXPECT_EQ(next(), Verdict::use);
-    EXPECT_EQ(judge("camera", start + 1'000'000 * second), Verdict::refuse);
+    EXPECT_EQ(classify("camera", start + 1'000'000 * second), Verdict::refuse);
   }
   EXPECT_EQ(filter.statistics().refused, 200u);
   EXPECT_EQ(filter.statistics().restarts, 0u);
@@ -73,15 +73,15 @@ TEST_F(TransformFilterTest, AClockThatIsSetIsFollowedWithinASecond) {
 TEST_F(TransformFilterTest, AClockThatIsAheadFromTheStartIsFollowed) {
   EXPECT_LE(refused_in_a_row(3600 * second) * field, second / 2);
   for (int n = 0; n < 100; ++n) EXPECT_EQ(next(3600 * second), Verdict::use);
-  EXPECT_EQ(judge("camera", start + now + 7200 * second), Verdict::refuse) << "also ahead of that clock";
+  EXPECT_EQ(classify("camera", start + now + 7200 * second), Verdict::refuse) << "also ahead of that clock";
 }
 
 TEST_F(TransformFilterTest, AllLinksOfOneClockStartOverOnce) {
   TransformFilter chain{"studio", "camera"};
   const auto both = [&](std::int64_t offset) {
     now += field;
-    const auto arm = chain.judge({"studio", "arm", start + now + offset, "/driver"}, start + now, now);
-    return std::pair{arm, chain.judge({"arm", "camera", start + now + offset, "/driver"}, start + now, now)};
+    const auto arm = chain.classify({"studio", "arm", start + now + offset, "/driver"}, start + now, now);
+    return std::pair{arm, chain.classify({"arm", "camera", start + now + offset, "/driver"}, start + now, now)};
   };
   const std::pair in_time{Verdict::use, Verdict::use};
   for (int n = 0; n < 10; ++n) EXPECT_EQ(both(0), in_time);
@@ -98,25 +98,25 @@ TEST_F(TransformFilterTest, UnrelatedLinksDoNotRestart) {
   EXPECT_EQ(filter.statistics().refused, 0u);
   // Now the camera is attached to it.
   now += field;
-  EXPECT_EQ(filter.judge({"robot", "camera", start + now, "/driver"}, start + now, now), Verdict::use);
+  EXPECT_EQ(filter.classify({"robot", "camera", start + now, "/driver"}, start + now, now), Verdict::use);
   EXPECT_EQ(next(-60 * second, "robot"), Verdict::restart);
 }
 
 TEST_F(TransformFilterTest, ALoopOfFramesDoesNotHang) {
-  EXPECT_EQ(filter.judge({"b", "camera", start, "/driver"}, start, now), Verdict::use);
-  EXPECT_EQ(filter.judge({"camera", "b", start, "/driver"}, start, now), Verdict::use);
-  EXPECT_EQ(judge("robot", start + 60 * second), Verdict::refuse);
+  EXPECT_EQ(filter.classify({"b", "camera", start, "/driver"}, start, now), Verdict::use);
+  EXPECT_EQ(filter.classify({"camera", "b", start, "/driver"}, start, now), Verdict::use);
+  EXPECT_EQ(classify("robot", start + 60 * second), Verdict::refuse);
 }
 
 TEST_F(TransformFilterTest, RosTimeThatGoesBackRestartsAtOnce) {
   EXPECT_FALSE(filter.ros_time_went_back(start));
   EXPECT_FALSE(filter.ros_time_went_back(start - second / 2));
   EXPECT_FALSE(filter.ros_time_went_back(start + 100 * second));
-  EXPECT_EQ(filter.judge({"studio", "camera", start + 100 * second, "/driver"}, start + 100 * second, now),
+  EXPECT_EQ(filter.classify({"studio", "camera", start + 100 * second, "/driver"}, start + 100 * second, now),
             Verdict::use);
   EXPECT_TRUE(filter.ros_time_went_back(start));
   EXPECT_FALSE(filter.ros_time_went_back(start));
-  EXPECT_EQ(filter.judge({"studio", "camera", start, "/driver"}, start, now), Verdict::use);
+  EXPECT_EQ(filter.classify({"studio", "camera", start, "/driver"}, start, now), Verdict::use);
   EXPECT_EQ(describe(filter.statistics().last_restart), "ROS time went back by 100.0 s");
 }
 

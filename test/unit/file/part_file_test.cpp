@@ -78,7 +78,7 @@ TEST_F(PartFileTest, AFileThatIsNeitherPublishedNorDiscardedStaysAsPart) {
     EXPECT_EQ(refusal({true}), SinkReason::in_use);
   }
   EXPECT_EQ(read_text(part), "half");
-  EXPECT_EQ(refusal(), SinkReason::left_over);
+  EXPECT_EQ(refusal(), SinkReason::part_exists);
   EXPECT_EQ(refusal({true}), std::nullopt);
   EXPECT_EQ(read_text(part), "");
 }

@@ -49,7 +49,7 @@ TEST(FreeDDecoder, TheWorkedMessage) {
   Decoder decoder({});
   Sample sample;
   sample.sample_time = 5;
-  sample.time_code = base::CountedTimeCode{};
+  sample.time_code = base::TimeCodeWithRate{};
   const auto p = params_of(decoder, test::worked_message(), sample);
   EXPECT_EQ(p.id, 7u);
   EXPECT_EQ(p.format, wire::euler);

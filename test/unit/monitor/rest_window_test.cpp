@@ -18,11 +18,11 @@ Rest rest_after(double seconds, PoseAt pose_at) {
   RestWindow window;
   const int fields = static_cast<int>(std::lround(seconds * 50));
   for (int n = 0; n <= fields; ++n) window.add(n * field, pose_at(n));
-  return window.judge();
+  return window.classify();
 }
 
 TEST(RestWindow, KnowsNothingAtFirst) {
-  EXPECT_EQ(RestWindow().judge().motion, Motion::unknown);
+  EXPECT_EQ(RestWindow().classify().motion, Motion::unknown);
   EXPECT_EQ(rest_after(2.6, [](int) { return PoseNumbers{}; }).motion, Motion::unknown);
   EXPECT_EQ(rest_after(2.7, [](int) { return PoseNumbers{}; }).motion, Motion::still);
 }
@@ -30,7 +30,7 @@ TEST(RestWindow, KnowsNothingAtFirst) {
 TEST(RestWindow, TooFewPosesGiveNoResult) {
   RestWindow window;
   for (int n = 0; n < 19; ++n) window.add(n * 160'000'000LL, {});
-  EXPECT_EQ(window.judge().motion, Motion::unknown);
+  EXPECT_EQ(window.classify().motion, Motion::unknown);
 }
 
 TEST(RestWindow, DeviationIsThatOfTheSample) {
@@ -80,7 +80,7 @@ TEST(RestWindow, RestartsWhenTheClockIsSetBack) {
   RestWindow window;
   for (int n = 0; n <= 150; ++n) window.add(n * field, {});
   window.add(0, {});
-  EXPECT_EQ(window.judge().motion, Motion::unknown);
+  EXPECT_EQ(window.classify().motion, Motion::unknown);
 }
 
 }  // namespace

@@ -242,7 +242,7 @@ TEST(View, TheHelpOfEveryKeyFitsInASmallTerminal) {
 
 TEST(View, HasTheTimeCode) {
   State state = state_with(1);
-  state.cameras.front().latest->time_code = base::CountedTimeCode{{10, 20, 30, 12, 1, true}, 59.94};
+  state.cameras.front().latest->time_code = base::TimeCodeWithRate{{10, 20, 30, 12, 1, true}, 59.94};
   EXPECT_THAT(plain_lines_of(state, 1).front(), HasSubstr("counter 1234567  10:20:30;12:1  age"));
 }
 

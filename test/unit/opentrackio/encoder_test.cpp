@@ -63,7 +63,7 @@ TEST(OpenTrackIoEncoder, MembersAreThoseOfTheProtocol) {
   WriterSettings settings = from_source(0);
   settings.rate = 59.94;
   PacketEncoder encoder(settings, Encoding::json, test::source_id);
-  encoder.use_time(time_of_sample, base::CountedTimeCode{{10, 20, 30, 12, 2, true}, 59.94});
+  encoder.use_time(time_of_sample, base::TimeCodeWithRate{{10, 20, 30, 12, 2, true}, 59.94});
   wire::CameraConstants constants;
   constants.id = 7;
   constants.image_width = 1920;

@@ -23,7 +23,7 @@ int main() {
     if (number % 4 != 0) settings.rate = rate;
     for (const Encoding encoding : {Encoding::json, Encoding::cbor}) {
       PacketEncoder encoder(settings, encoding, uuid(1, 2));
-      encoder.use_time(1'700'000'000'000'000'000 + number, base::CountedTimeCode{{23, 59, 58, 11, 2}, rate});
+      encoder.use_time(1'700'000'000'000'000'000 + number, base::TimeCodeWithRate{{23, 59, 58, 11, 2}, rate});
       for (const bool has_static : {true, false}) {
         if ((has_static && !encoder.begin(c.constants)) || !encoder.begin(c.params)) return 1;
         std::string text;

@@ -52,7 +52,7 @@ Met read(const std::vector<std::int64_t>& written, double from = 2 * s) {
       met.lateness.push_back(static_cast<double>(now - written[seen - 1]));
       met.replaced += static_cast<int>(sets) - 1;
     }
-    cadence.looked(now, sets);
+    cadence.polled(now, sets);
     const std::int64_t next = cadence.next(now);
     if (next <= now) {
       now += static_cast<std::int64_t>(us);
@@ -122,7 +122,7 @@ TEST(Cadence, measures_period_and_jitter) {
     for (std::int64_t now = written.front() - 1'000'000; seen < written.size();) {
       unsigned sets = 0;
       for (; seen < written.size() && written[seen] <= now; ++seen) ++sets;
-      cadence.looked(now, sets);
+      cadence.polled(now, sets);
       cadence.slept(20'000);
       now = std::max(cadence.next(now), now + 1000);
     }

@@ -179,7 +179,7 @@ TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_detached_and_read_agai
   FieldProgram tracker(slot, of(544));
   ASSERT_TRUE(tracker.open());
   const int id = tracker.id();
-  constexpr int good = 0, not_let_go = 1, no_record = 2;
+  constexpr int good = 0, still_attached = 1, no_record = 2;
   int has_read[2] = {};
   ASSERT_EQ(::pipe(has_read), 0);
   const pid_t child = ::fork();
@@ -191,7 +191,7 @@ TEST_F(Field, a_segment_that_the_reader_may_not_remove_is_detached_and_read_agai
     const auto source = open_source(url());
     if (!receive_until(*source, [&] { return source->statistics().records > 0; })) ::_exit(no_record);
     if (::write(has_read[1], "1", 1) != 1) ::_exit(5);
-    if (!receive_until(*source, [&] { return attachments(id) == 0; })) ::_exit(not_let_go);
+    if (!receive_until(*source, [&] { return attachments(id) == 0; })) ::_exit(still_attached);
     if (source->statistics().waiting_for.find("no other program is attached to its segment") == std::string::npos)
       ::_exit(3);
     // What was written without a reader is also read.

@@ -107,7 +107,7 @@ TEST_F(Confused, a_segment_that_is_being_created_is_waited_for_and_unchanged) {
   const auto sink = endpoints::parse_sink(url)->open();
   const auto written = sink->write(wire::CameraParams{});
   ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().reason, SinkReason::gone);
+  EXPECT_EQ(written.error().reason, SinkReason::no_segment);
   EXPECT_EQ(contents(id, 528), std::string(528, '\0'));
 }
 
@@ -138,7 +138,7 @@ TEST_F(Confused, a_sink_whose_slot_became_foreign_reports_no_segment) {
   const int id = slot.make_segment(300);
   const auto written = sink->write(wire::CameraParams{});
   ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().reason, SinkReason::gone);
+  EXPECT_EQ(written.error().reason, SinkReason::no_segment);
   EXPECT_THAT(describe(written.error()), HasSubstr("there is no segment to write to"));
   EXPECT_EQ(contents(id, 300), std::string(300, '\0'));
   slot.remove();

@@ -103,7 +103,7 @@ TEST_F(Hostile, a_segment_that_is_never_finished_does_not_block_a_writer) {
   slot.make_segment(544);
   const auto sink = endpoints::parse_sink(url())->open();
   EXPECT_LT(least_time_of([&] { EXPECT_FALSE(sink->write(params(1))); }), no_waiting);
-  EXPECT_EQ(sink->write(params(1)).error().reason, transport::SinkReason::gone);
+  EXPECT_EQ(sink->write(params(1)).error().reason, transport::SinkReason::no_segment);
   slot.remove();
   EXPECT_TRUE(sink->write(params(2))) << "every write checks again";
 }

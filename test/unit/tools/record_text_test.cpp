@@ -84,7 +84,7 @@ TEST(JsonLine, HasTheTimeCodeIfThereIsOne) {
   JsonLine line;
   auto sample = sample_of(wire::CameraParams{});
   EXPECT_FALSE(parsed(line.of(sample)).HasMember("time_code"));
-  sample.time_code = base::CountedTimeCode{{10, 20, 30, 12, 1, true}, 59.94};
+  sample.time_code = base::TimeCodeWithRate{{10, 20, 30, 12, 1, true}, 59.94};
   EXPECT_STREQ(parsed(line.of(sample))["time_code"].GetString(), "10:20:30;12:1");
   EXPECT_THAT(plain_line(sample), HasSubstr(" 10:20:30;12:1 id "));
 }

@@ -21,25 +21,25 @@ class Scripted final : public Sink {
   std::string name() const override { return "scripted"; }
   using Sink::count_constants;
 
-  Written answer;
+  WriteResult answer;
   int puts = 0, finishes = 0;
 
  private:
-  Written put(const wire::CameraParams&) override {
+  WriteResult put(const wire::CameraParams&) override {
     ++puts;
     return answer;
   }
-  Written put(const wire::CameraConstants&) override {
+  WriteResult put(const wire::CameraConstants&) override {
     ++puts;
     return answer;
   }
-  Written finish() override {
+  WriteResult finish() override {
     ++finishes;
     return answer;
   }
 };
 
-Written refused_by_system(int error) { return tl::make_unexpected(SinkFault{SinkReason::system, {}, error}); }
+WriteResult refused_by_system(int error) { return tl::make_unexpected(SinkFault{SinkReason::system, {}, error}); }
 
 TEST(Sink, CountsSentAndFailedRecords) {
   Scripted sink;
@@ -64,12 +64,12 @@ TEST(Sink, KnowsTheTimeOfTheParametersThatItWrites) {
     std::int64_t written = -1;
 
    private:
-    Written put(const wire::CameraParams&) override {
+    WriteResult put(const wire::CameraParams&) override {
       written = time().nanoseconds;
       return {};
     }
-    Written put(const wire::CameraConstants&) override { return {}; }
-    Written finish() override { return {}; }
+    WriteResult put(const wire::CameraConstants&) override { return {}; }
+    WriteResult finish() override { return {}; }
   } sink;
   ASSERT_TRUE(sink.write(test::params(1), 1234));
   EXPECT_EQ(sink.written, 1234);
@@ -122,7 +122,7 @@ TEST(SinkFault, EveryReasonHasItsOwnText) {
   EXPECT_THAT(describe(system), HasSubstr("unreachable"));
   const auto reasons = {SinkReason::not_encodable, SinkReason::no_constants, SinkReason::constants_changed,
                         SinkReason::other_camera,  SinkReason::system,       SinkReason::no_interface,
-                        SinkReason::gone,          SinkReason::closed};
+                        SinkReason::no_segment,    SinkReason::closed};
   for (const SinkReason reason : reasons) texts.insert(describe(SinkFault{reason}));
   EXPECT_EQ(texts.size(), reasons.size());
 }

@@ -37,7 +37,7 @@ void expect_no_allocation(const std::string& options) {
       for (Event event; (event = source->receive(reception, std::chrono::nanoseconds::zero())) != Event::idle;) {
         ++(event == Event::sample ? samples : malformed);
       }
-      (void)sequence.judge(params.counter);
+      (void)sequence.classify(params.counter);
     }
   });
   EXPECT_EQ(samples, 201u) << "constants go with every set";

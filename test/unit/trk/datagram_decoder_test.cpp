@@ -54,7 +54,7 @@ TEST(DatagramDecoder, OneSamplePerDatagram) {
   EXPECT_EQ(decoder.next(sample, fault), Next::none) << "nothing was started";
   sample.has_counter = sample.has_lens = false;
   sample.sample_time = 5;
-  sample.time_code = base::CountedTimeCode{};
+  sample.time_code = base::TimeCodeWithRate{};
   sample.arrival = 7;
   sample.encoders.zoom = 5;
   sample.doubt = "of another";
