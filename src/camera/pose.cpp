@@ -23,8 +23,10 @@ struct SinCos {
 
 /// Exact at multiples of 90 degrees, and accurate after any number of turns.
 SinCos sin_cos_of_degrees(double degrees) noexcept {
-  int quarter_turns = 0;
-  const double rest = std::remquo(degrees, 90.0, &quarter_turns) / degrees_per_radian;
+  // Both steps are exact. Not std::remquo(): qemu's i386 gives no quotient.
+  const double within_turn = std::remainder(degrees, 360.0);
+  const int quarter_turns = static_cast<int>(std::lround(within_turn / 90.0));
+  const double rest = (within_turn - quarter_turns * 90.0) / degrees_per_radian;
   const double s = std::sin(rest);
   const double c = std::cos(rest);
   switch (static_cast<unsigned>(quarter_turns) & 3U) {
