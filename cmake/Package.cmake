@@ -17,7 +17,7 @@ else()
 endif()
 
 # Files for pkg-config: for the C libraries, and for the C++ libraries that other projects can link. Paths are relative
-# to the .pc file, so that an installation can be moved. They replace the trk_bridge.pc of catkin, which has a fixed
+# to the .pc file, so that an installation can be moved. The trk_bridge.pc that catkin_package() would make has a fixed
 # prefix and a wrong include path, and requires packages without .pc files on some systems (pluginlib).
 file(RELATIVE_PATH TRK_PC_TO_PREFIX /prefix/${TRK_BRIDGE_LIB_DIR}/pkgconfig /prefix)
 set(TRK_PC_LIBS)

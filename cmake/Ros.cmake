@@ -54,6 +54,8 @@ catkin_package(
     xmlrpcpp
   DEPENDS EIGEN3
   CFG_EXTRAS trk_bridge-extras.cmake
+  # Package.cmake makes a better one, of the same name.
+  SKIP_PKG_CONFIG_GENERATION
 )
 
 set(TRK_BRIDGE_LIB_DIR ${CATKIN_PACKAGE_LIB_DESTINATION})
@@ -79,5 +81,7 @@ if(NOT CATKIN_GLOBAL_LIB_DESTINATION STREQUAL "lib")
 endif()
 
 install(DIRECTORY include/trk_bridge/ros DESTINATION ${TRK_BRIDGE_INCLUDE_DIR}/trk_bridge FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY config launch urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} PATTERN presets.yaml EXCLUDE)
+# The two files that are installed without ROS, too, are excluded.
+install(DIRECTORY config launch urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
+  PATTERN presets.yaml EXCLUDE PATTERN lens_example.yaml EXCLUDE)
 install(FILES nodelets.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
