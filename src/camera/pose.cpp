@@ -25,7 +25,7 @@ struct SinCos {
 SinCos sin_cos_of_degrees(double degrees) noexcept {
   // Both steps are exact. Not std::remquo(): qemu's i386 gives no quotient.
   const double within_turn = std::remainder(degrees, 360.0);
-  const int quarter_turns = static_cast<int>(std::lround(within_turn / 90.0));
+  const int quarter_turns = static_cast<int>(std::lrint(within_turn / 90.0));
   const double rest = (within_turn - quarter_turns * 90.0) / degrees_per_radian;
   const double s = std::sin(rest);
   const double c = std::cos(rest);
