@@ -52,7 +52,10 @@ def main():
     failed += len([name for name in plain if name in broken])
     if failed == 0:
         failed += len([name for name in with_cases if name in broken])
-    failed += len(steps) + (0 if ran else 1)
+    failed += len(steps)
+    if not ran:
+        print("count_results: ctest's log has no test", file=sys.stderr)
+        failed += 1
     print(f"{passed} passed, {failed} failed")
     return 1 if failed else 0
 

@@ -11,6 +11,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 FIGURE = re.compile(r"(?P<number>\d[\d,.]*)(?P<words>[^|\d]*?)<!-- = (?P<command>.+?) -->")
 TEST = re.compile(r"`ctest -R (?P<pattern>[^`]+)`")
@@ -31,8 +32,15 @@ def stale_figures(root, text):
             yield f"{match['number']}{match['words']}: `{command}` prints {printed or done.stderr.strip()!r}"
 
 
+def tests_of(build):
+    """What `ctest -N` lists. In BUILD itself it would overwrite the log of the ctest that runs this test."""
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "CTestTestfile.cmake").write_text(f'subdirs("{build}")\n', encoding="utf-8")
+        return subprocess.run(["ctest", "-N"], cwd=folder, capture_output=True, text=True, check=True).stdout
+
+
 def missing_tests(build, text):
-    listed = subprocess.run(["ctest", "-N"], cwd=build, capture_output=True, text=True, check=True).stdout
+    listed = tests_of(build)
     names = re.findall(r"^\s*Test\s+#\d+: (\S+)", listed, re.MULTILINE)
     for pattern in TEST.findall(text):
         if not any(re.search(pattern, name) for name in names):
@@ -59,7 +67,7 @@ def without_copyright(root):
 
 def main():
     root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]
-    build = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else root / "build"
+    build = (pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else root / "build").resolve()
     text = (root / "QUALITY_DECLARATION.md").read_text(encoding="utf-8")
     faults = [*stale_figures(root, text), *missing_tests(build, text), *missing_paths(root, text),
               *without_copyright(root)]
