@@ -2,7 +2,6 @@
 // Any calls of the C interface in any order, with valid and invalid arguments: what they return is what the headers
 // say, and the handles that are open stay usable.
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "c_records.h"
+#include "c_texts.h"
 #include "free_slot.h"
 #include "fuzz.h"
 #include "reserved_port.h"
@@ -25,6 +25,8 @@ namespace {
 using namespace trk_bridge;
 using test::claim;
 using test::Input;
+using test::is_finite;
+using test::or_null;
 using test::text_of;
 
 enum class Kind : std::uint8_t { net_reader, net_writer, memory, playback, recording };
@@ -35,23 +37,6 @@ struct Handle {
   bool is_open = true;
 };
 
-/// Null now and then.
-template <typename Value>
-Value* or_null(Input& input, Value& value) {
-  return input.below(16) == 0 ? nullptr : &value;
-}
-
-bool is_finite(const trkCameraConstants& c) {
-  return std::isfinite(c.chipWidth) && std::isfinite(c.chipHeight) && std::isfinite(c.fakeChipWidth) &&
-         std::isfinite(c.fakeChipHeight);
-}
-bool is_finite(const trkCameraParams& p) {
-  const double* const m = &p.t.m[0][0];
-  const std::ptrdiff_t numbers = (p.format & trkEuler) != 0 ? 6 : 16;
-  return std::all_of(m, m + numbers, [](double x) { return std::isfinite(x); }) && std::isfinite(p.fov) &&
-         std::isfinite(p.centerX) && std::isfinite(p.centerY) && std::isfinite(p.k1) && std::isfinite(p.k2) &&
-         std::isfinite(p.focdist) && std::isfinite(p.aperture);
-}
 bool is_writable(const trkCameraConstants& c) { return is_finite(c); }
 bool is_writable(const trkCameraParams& p) {
   return is_finite(p) && (p.format & ~0x3ffU) == 0 && (p.format & (trkVertical | trkDiagonal)) != 0x060;
@@ -95,7 +80,7 @@ class Program {
         read();
         break;
       case 9:
-        use_texts();
+        test::use_texts(input_);
         break;
     }
   }
@@ -362,38 +347,6 @@ class Program {
 #endif
         break;
     }
-  }
-
-  void use_texts() {
-    const std::string text(input_.bytes(input_.number<std::uint16_t>() % 800));
-    const char* const given = input_.below(16) == 0 ? nullptr : text.c_str();
-    trkCameraParams params{};
-    trkCameraConstants constants{};
-    unsigned format = 0;
-    const int are_params = trkStringToParams(given, or_null(input_, params));
-    if (are_params != 0) {
-      trkCameraParams again{};
-      claim(is_finite(params) && trkStringToParams(text_of(params).c_str(), &again) == 1, "a text that is not read");
-      claim(text_of(again) == text_of(params), "another text of the same parameters");
-    }
-    const int are_constants = trkStringToConstants(given, or_null(input_, constants));
-    if (are_constants != 0) {
-      trkCameraConstants again{};
-      claim(trkStringToConstants(text_of(constants).c_str(), &again) == 1 && text_of(again) == text_of(constants),
-            "other constants of the same text");
-    }
-    std::vector<char> words(trkStringSize);
-    claim(trkParamsToString(&params, words.data()) == static_cast<int>(std::strlen(words.data())), "a wrong length");
-    claim(trkConstantsToString(&constants, words.data()) == static_cast<int>(std::strlen(words.data())),
-          "a wrong length");
-    if (trkStringToFormat(given, or_null(input_, format)) != 0) {
-      unsigned again = 0;
-      claim(trkFormatToString(format, words.data()) == static_cast<int>(std::strlen(words.data())), "a wrong length");
-      claim(trkStringToFormat(words.data(), &again) == 1, "words that are not read");
-    }
-    trkFormatToString(input_.number<std::uint32_t>(), words.data());
-    claim(trkParamsToString(nullptr, words.data()) == 0 && words[0] == '\0', "a text of nothing");
-    claim(trkParamsToString(&params, nullptr) == 0 && trkFormatToString(0, nullptr) == 0, "a text in nothing");
   }
 
   /// Every handle that is open takes one more record, ends, and is none from then on.
