@@ -2,30 +2,27 @@
 #include "report.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include <rapidjson/stringbuffer.h>
 #include <rapidjson/writer.h>
 
+#include "base/number_text.h"
+
 namespace trk_bridge::delay {
 namespace {
+
+using base::fixed_text;
 
 constexpr double least_fault = 0.01;      // of a focal length
 constexpr double least_roll_fault = 0.1;  // of a scale: a person in front of the camera can cause a few percent
 constexpr double sure = 3;                // standard deviations
 constexpr double ms = 1e3;                // in a second
 
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 bool is_off(double scale, double error, double least) {
   return std::abs(scale - 1) > least && std::abs(scale - 1) > sure * error;
 }
 
-std::string with_error(double scale, double error) { return number("%.3f", scale) + number(" +- %.3f", error); }
+std::string with_error(double scale, double error) { return fixed_text(scale, 3) + " +- " + fixed_text(error, 3); }
 
 bool has_focal_length(const Measurement& measurement) { return measurement.focal_length_scale.has_value(); }
 
@@ -36,7 +33,7 @@ bool is_focal_length_off(const Measurement& measurement) {
 
 std::string percent_wrong(double scale, const char* more, const char* less) {
   const double wrong = 1 / scale - 1;
-  return number("%.1f %% too ", std::abs(wrong) * 100) + (wrong > 0 ? more : less);
+  return fixed_text(std::abs(wrong) * 100, 1) + " % too " + (wrong > 0 ? more : less);
 }
 
 using Writer = rapidjson::Writer<rapidjson::StringBuffer>;
@@ -80,8 +77,8 @@ void write(Writer& json, const Measurement& measurement, double field) {
 std::string summary(const Measurement& measurement, double field) {
   if (measurement.cannot_tell) return std::string("cannot tell: ") + describe(*measurement.cannot_tell);
   const double delay = measurement.delay;
-  const std::string size = number("%.1f ms ", std::abs(delay) * ms);
-  const std::string fields = number(" (%.2f fields)", std::abs(delay) / field);
+  const std::string size = fixed_text(std::abs(delay) * ms, 1) + " ms ";
+  const std::string fields = " (" + fixed_text(std::abs(delay) / field, 2) + " fields)";
   return (delay < 0 ? "tracking is " + size + "later than the video" : "the video is " + size + "later than tracking") +
          fields;
 }
@@ -105,13 +102,13 @@ std::vector<std::string> faults(const Measurement& measurement) {
 
 std::vector<std::pair<std::string, std::string>> values(const Measurement& measurement, double field) {
   std::vector<std::pair<std::string, std::string>> all;
-  const auto rate = [](double interval) { return interval > 0 ? number("%.2f", 1 / interval) : "unknown"; };
+  const auto rate = [](double interval) { return interval > 0 ? fixed_text(1 / interval, 2) : "unknown"; };
   if (!measurement.cannot_tell) {
-    all.emplace_back("delay (ms)", number("%.2f", measurement.delay * ms));
-    all.emplace_back("accuracy (ms)", number("%.2f", measurement.accuracy * ms));
-    all.emplace_back("delay (fields)", number("%.3f", measurement.delay / field));
-    all.emplace_back("field (ms)", number("%.2f", field * ms));
-    all.emplace_back("correlation", number("%.4f", measurement.correlation));
+    all.emplace_back("delay (ms)", fixed_text(measurement.delay * ms, 2));
+    all.emplace_back("accuracy (ms)", fixed_text(measurement.accuracy * ms, 2));
+    all.emplace_back("delay (fields)", fixed_text(measurement.delay / field, 3));
+    all.emplace_back("field (ms)", fixed_text(field * ms, 2));
+    all.emplace_back("correlation", fixed_text(measurement.correlation, 4));
     for (std::size_t i = 0; i < axis_names.size(); ++i) {
       const Axis& axis = measurement.axes[i];
       all.emplace_back(std::string(axis_names[i]) + " scale",
@@ -123,14 +120,14 @@ std::vector<std::pair<std::string, std::string>> values(const Measurement& measu
   }
   all.emplace_back("video (Hz)", rate(measurement.frame_interval));
   all.emplace_back("tracking (Hz)", rate(measurement.tracking_interval));
-  all.emplace_back("frames followed (%)", number("%.0f", measurement.followed * 100));
+  all.emplace_back("frames followed (%)", fixed_text(measurement.followed * 100, 0));
   return all;
 }
 
 std::string setting(const Measurement& measurement) {
   if (measurement.cannot_tell) return "";
-  if (measurement.delay < 0) return "add to the delay of trk_to_ros: " + number("%.4f", -measurement.delay);
-  return "for ros_to_trk: delay:=" + number("%.4f", measurement.delay);
+  if (measurement.delay < 0) return "add to the delay of trk_to_ros: " + fixed_text(-measurement.delay, 4);
+  return "for ros_to_trk: delay:=" + fixed_text(measurement.delay, 4);
 }
 
 std::string to_json(const Measurement& measurement, double field) {

@@ -2,7 +2,8 @@
 #include "test_card_figure.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "base/number_text.h"
 
 namespace trk_bridge::demo {
 namespace {
@@ -16,9 +17,8 @@ int cells(double length, double spacing) {
 }
 
 std::string coordinates(const Eigen::Vector3d& place) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%g %g %g", place.x(), place.y(), place.z());
-  return text;
+  using base::general_text;
+  return general_text(place.x()) + ' ' + general_text(place.y()) + ' ' + general_text(place.z());
 }
 
 }  // namespace

@@ -3,9 +3,8 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <sstream>
 
+#include "base/number_text.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::monitor {
@@ -148,12 +147,10 @@ Group constants(const wire::CameraConstants& c) {
 
 std::string fixed(double value, int decimals) {
   constexpr double most_with_decimals = 1e7;
-  std::array<char, 64> text{};
   const bool is_plain = std::abs(value) < most_with_decimals;
   // No -0.000.
   if (std::abs(value) * 2 < std::pow(10.0, -decimals)) value = 0;
-  std::snprintf(text.data(), text.size(), is_plain ? "%.*f" : "%.*g", decimals, value);
-  return text.data();
+  return is_plain ? base::fixed_text(value, decimals) : base::general_text(value, decimals);
 }
 
 std::string to_string(const Cell& cell) {

@@ -4,24 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <utility>
 
+#include "base/number_text.h"
 #include "plot/plot.h"
 #include "trk_bridge/camera/image.h"
 
 namespace trk_bridge::tools {
 namespace {
 
-constexpr int steps = 400;  // of a curve
+using base::general_text;
 
-std::string text_of(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
+constexpr int steps = 400;  // of a curve
 
 struct Range {
   double least = std::numeric_limits<double>::infinity(), most = -least;
@@ -31,7 +27,7 @@ struct Range {
     most = std::max(most, value);
   }
   std::string text(const char* unit) const {
-    return text_of(least) + (least < most ? " to " + text_of(most) : "") + " " + unit;
+    return general_text(least) + (least < most ? " to " + general_text(most) : "") + " " + unit;
   }
   /// A little wider, and not empty.
   std::pair<double, double> for_axis() const {
@@ -97,7 +93,8 @@ plot::Panel panel_over_zoom(const lens::Table& table, const std::string& y_name,
     const std::string& name = values[i].first;
     const Value value = values[i].second;
     const auto add = [&](double focus, const char* colour) {
-      add_curve(table, focus, value, colour, breathes(table) ? name + ", focus " + text_of(focus) : name, panel.curves);
+      add_curve(table, focus, value, colour, breathes(table) ? name + ", focus " + general_text(focus) : name,
+                panel.curves);
     };
     add(table.first().focus, colours[i].first);
     if (breathes(table)) add(table.last().focus, colours[i].second);
@@ -132,18 +129,19 @@ std::vector<std::string> lines_of(const lens::Table& table) {
     for (const double length : {lengths.least, lengths.most}) {
       if (const auto angle = camera::field_of_view(length, chip)) angles.add(*angle);
     }
-    lines.push_back("horizontal angle of view: " + angles.text("degrees") + " on a chip of " + text_of(chip) + " mm");
+    lines.push_back("horizontal angle of view: " + angles.text("degrees") + " on a chip of " + general_text(chip) +
+                    " mm");
   }
   lines.push_back("centre shift: x " + range_over(table, shift_x).text("mm") + ", y " +
                   range_over(table, shift_y).text("mm"));
   const double radius = radius_of(table);
-  lines.push_back("distortion at " + text_of(radius) +
+  lines.push_back("distortion at " + general_text(radius) +
                   " mm from the optical axis: " + range_over(table, distortion_at(radius)).text("%"));
   if (table.has_distances()) {
     Range distances;
     for (const auto& point : points.focus) distances.add(point.distance);
-    lines.push_back("focus: " + text_of(points.focus.front().count) + " to " + text_of(points.focus.back().count) +
-                    " counts, " + distances.text("m"));
+    lines.push_back("focus: " + general_text(points.focus.front().count) + " to " +
+                    general_text(points.focus.back().count) + " counts, " + distances.text("m"));
   } else {
     lines.emplace_back("focus: distances are not known");
   }
@@ -157,7 +155,7 @@ std::string to_svg(const lens::Table& table, const std::string& title) {
   const double radius = radius_of(table);
   std::vector<plot::Panel> panels{panel_over_zoom(table, "focal length, mm", {{"focal length", focal_length}}),
                                   panel_over_zoom(table, "centre shift, mm", {{"x", shift_x}, {"y", shift_y}}),
-                                  panel_over_zoom(table, "distortion " + text_of(radius) + " mm from the axis, %",
+                                  panel_over_zoom(table, "distortion " + general_text(radius) + " mm from the axis, %",
                                                   {{"distortion", distortion_at(radius)}})};
   if (table.has_distances()) {
     const auto& focus = table.points().focus;

@@ -15,6 +15,7 @@
 
 #include "bridge/diagnostic_text.h"
 #include "camera_records.h"
+#include "delay/report.h"
 #include "lens/table.h"
 #include "plot/plot.h"
 #include "program.h"
@@ -152,6 +153,9 @@ TEST_F(InALocaleWithCommas, PlotsHavePoints) {
 TEST_F(InALocaleWithCommas, MessagesHavePoints) {
   EXPECT_EQ(same([] { return bridge::two_decimals(1234.5); }), "1234.50");
   EXPECT_EQ(same([] { return bridge::duration_text(0.5); }), "0.5 s");
+  delay::Measurement measured;
+  measured.delay = 0.0432;
+  EXPECT_EQ(same([&] { return delay::setting(measured); }), "for ros_to_trk: delay:=0.0432");
   EXPECT_EQ(same([] {
               try {
                 (void)base::Sequence(-0.5);
