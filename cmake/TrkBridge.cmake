@@ -21,15 +21,11 @@ target_compile_options(trk_bridge_options INTERFACE -Wall -Wextra -Wpedantic -Wc
   $<$<BOOL:${TRK_BRIDGE_WERROR}>:-Werror>)
 
 # trk_bridge_library(TARGET SOURCE... [PLUGIN] [EXPORT_AS NAME] [PUBLIC LIB...] [PRIVATE LIB...]): the library of a
-# module, shared and installed. With EXPORT_AS it is the target trk_bridge::NAME, for other projects as well. The binary
+# module, shared and installed; for tests in an emulator, static and not installed. With EXPORT_AS it is the target trk_bridge::NAME, for other projects as well. The binary
 # interface is stable within a minor version; a PLUGIN, which ROS loads by its file name, has no version.
 function(trk_bridge_library name)
   cmake_parse_arguments(ARG "PLUGIN" "EXPORT_AS" "PUBLIC;PRIVATE" ${ARGN})
-  if(ARG_PLUGIN)
-    add_library(${name} SHARED ${ARG_UNPARSED_ARGUMENTS})
-  else()
-    add_library(${name} ${TRK_BRIDGE_LIBRARY_TYPE} ${ARG_UNPARSED_ARGUMENTS})
-  endif()
+  add_library(${name} ${TRK_BRIDGE_LIBRARY_TYPE} ${ARG_UNPARSED_ARGUMENTS})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
   # Other projects include its headers, and their compiler may default to an older C++.
@@ -43,17 +39,14 @@ function(trk_bridge_library name)
   set(export)
   if(ARG_EXPORT_AS)
     add_library(trk_bridge::${ARG_EXPORT_AS} ALIAS ${name})
-  endif()
-  if(TRK_BRIDGE_LIBRARY_TYPE STREQUAL STATIC)
-    return()
-  endif()
-  if(ARG_EXPORT_AS)
     set_target_properties(${name} PROPERTIES EXPORT_NAME ${ARG_EXPORT_AS})
     set(export EXPORT trk_bridge)
   endif()
-  install(TARGETS ${name} ${export}
-    LIBRARY DESTINATION ${TRK_BRIDGE_LIB_DIR} ARCHIVE DESTINATION ${TRK_BRIDGE_LIB_DIR}
-    INCLUDES DESTINATION ${TRK_BRIDGE_INCLUDE_DIR})
+  if(TRK_BRIDGE_LIBRARY_TYPE STREQUAL SHARED)
+    install(TARGETS ${name} ${export}
+      LIBRARY DESTINATION ${TRK_BRIDGE_LIB_DIR} ARCHIVE DESTINATION ${TRK_BRIDGE_LIB_DIR}
+      INCLUDES DESTINATION ${TRK_BRIDGE_INCLUDE_DIR})
+  endif()
 endfunction()
 
 # trk_bridge_program(NAME SOURCE... [LIBS LIB...]): an installed program.
