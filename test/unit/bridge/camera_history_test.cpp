@@ -129,7 +129,7 @@ TEST_F(CameraHistoryTest, ALensWithItsOwnTimesIsInterpolatedByThem) {
   EXPECT_EQ(found->margins.lens, 110 * ms) << "a lens that does not move is no missing sample";
 }
 
-TEST_F(CameraHistoryTest, ALensThatChangesWithoutANewTimeGetsThatOfThePose) {
+TEST_F(CameraHistoryTest, AChangedLensWithAnOldTimeGetsTheTimeOfThePose) {
   history->add(camera_at(0), start, start - 1000 * ms);
   history->add(camera_at(1), start + 20 * ms, start - 1000 * ms);
   history->add(camera_at(2, 14), start + 40 * ms, start - 1000 * ms);

@@ -188,7 +188,7 @@ TEST(Senders, ASenderOfInvalidCamerasCannotReplaceOthers) {
   EXPECT_TRUE(pipeline.process(sample_from(2000, 1, second), second).pose);
 }
 
-TEST(Senders, ASenderWithANewPortForEveryDatagramIsFollowed) {
+TEST(Senders, ASenderMayUseAnotherPortForEveryDatagram) {
   CameraPipeline pipeline(CameraOptions{}, 50);
   int published = 0;
   for (std::uint32_t i = 0; i < 250; ++i) {

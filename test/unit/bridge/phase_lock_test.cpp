@@ -150,7 +150,7 @@ TEST(PhaseLock, LossBurstsAndStallsDoNotMoveIt) {
   for (const double interval : done.intervals(1e9)) EXPECT_NEAR(interval, 20 * ms, 0.3 * ms);
 }
 
-TEST(PhaseLock, ANewPhaseIsFollowedWithinHalfASecond) {
+TEST(PhaseLock, AdaptsToAnotherPhaseWithinHalfASecond) {
   auto arrivals = arrivals_at(50, 1000);
   for (std::size_t i = 500; i < arrivals.size(); ++i) arrivals[i] += 9'000'000;
   PhaseLock lock(50);

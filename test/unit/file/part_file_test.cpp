@@ -155,7 +155,7 @@ class RecoverPart : public PartFileTest {
   const std::string head = "DMC01\n# time code\n10:20:30:12:1\n# constants\n720 576 0 0 0 0 8.8 6.6 8.8 6.6\n";
 };
 
-TEST_F(RecoverPart, CompleteLinesAreKeptUnderANewName) {
+TEST_F(RecoverPart, CompleteLinesAreKeptInTheRecoveredFile) {
   write_text(left, head + "1 a field\n2 another\n3 half a");
   EXPECT_EQ(recover_part(left), directory / "crane.recovered.trk");
   EXPECT_EQ(read_text(directory / "crane.recovered.trk"), head + "1 a field\n2 another\n");
