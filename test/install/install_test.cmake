@@ -1,7 +1,9 @@
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # Installs to an empty folder, moves it, and hides the source and the build if private mounts are permitted. Then builds
 # and runs programs of another project, which find the package with CMake and with pkg-config, and uses the installed
-# files. Checks that each of them is in a Debian package.
+# files. Checks that each of them is installed once, and is in a Debian package.
+cmake_policy(VERSION 3.16)
+
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
