@@ -246,7 +246,8 @@ void run_with_writer_of_the_field(Input& input, Memory& memory) {
   params_reader.read(link, [] { return std::nullopt; });
 }
 
-/// Random bytes are refused, or read as numbers that are finite. Records of a valid writer are read after its first write.
+/// Random bytes are refused, or read as numbers that are finite. Records of a valid writer are read after its first
+/// write.
 void run_with_random_bytes(Input& input, Memory& memory) {
   Link::Clock::time_point now{};
   Link link = attached(memory, now);
