@@ -4,6 +4,7 @@
 import contextlib
 import os
 import pathlib
+import re
 import shlex
 import signal
 import subprocess
@@ -14,6 +15,11 @@ LEFT_BY = "TRK_BRIDGE_PAGE_TEST"  # an environment variable that marks the proce
 
 # Output of programs and of roslaunch about errors that no exit code reports.
 _BAD_SIGNS = ("process has died", "escalating to SIGTERM", "Traceback (most recent call last)")
+
+# roslaunch writes to its log in its signal handler. If Ctrl-C comes while it is writing to it, Python's logging reports
+# this, and nothing else happens.
+_REENTRANT_LOG = re.compile(r"--- Logging error ---\nTraceback .*?\nRuntimeError: reentrant call .*?\nArguments: .*?\n",
+                            re.DOTALL)
 
 
 class CommandError(Exception):
@@ -76,7 +82,7 @@ class Command:
         self.check_signs()
 
     def check_signs(self):
-        output = self.output()
+        output = _REENTRANT_LOG.sub("", self.output())
         for sign in _BAD_SIGNS:
             if sign in output:
                 self.fail(f"says '{sign}'")

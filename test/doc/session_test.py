@@ -37,6 +37,16 @@ class Sessions(unittest.TestCase):
         with self.refused("says 'process has died'"):
             self.terminals.run("echo '[a-1] process has died [pid 1, exit code 1]'")
 
+    def test_a_log_that_ctrl_c_interrupts_is_no_error_but_others_are(self):
+        log = ("--- Logging error ---\nTraceback (most recent call last):\n  File \"handlers.py\", line 197\n"
+               "RuntimeError: reentrant call inside <_io.BufferedWriter name='log'>\nCall stack:\n  File \"pmon.py\"\n"
+               "Message: 'ProcessMonitor.shutdown'\nArguments: ()\n")
+        (self.folder / "log").write_text(log + log)
+        self.terminals.run("cat log")
+        (self.folder / "log").write_text(log + log.replace("reentrant call inside", "no space for"))
+        with self.refused("says 'Traceback"):
+            self.terminals.run("cat log")
+
     def test_background_lives_until_ctrl_c(self):
         self.terminals.run_in_background("trap 'touch ended; exit 0' INT; echo up; while :; do sleep 0.05; done", "up")
         self.assertFalse((self.folder / "ended").exists())
