@@ -46,6 +46,8 @@ DelayMeter::DelayMeter(::ros::NodeHandle node, const ::ros::NodeHandle& private_
   timer_ = node.createWallTimer(::ros::WallDuration(period), [this](const ::ros::WallTimerEvent&) { measure(); });
   diagnostics_.add(parameters_.name, [this] { return describe(); });
   diagnostics_.start();
+  ROS_INFO_STREAM("delay_meter: " << parameters_.name << ": waiting for pictures on " << images_.topic << ", and for "
+                                  << params_.topic << " and " << constants_subscriber_.getTopic());
 }
 
 void DelayMeter::Input::refuse(const std::string& why) {

@@ -65,7 +65,12 @@ class DelayMeter : public NodeTest<nodes::DelayMeter> {
 };
 
 TEST_F(DelayMeter, MeasuresTheDelayAndReportsItUntilThereIsAnother) {
+  const LogRecorder log;
   ASSERT_TRUE(starts());
+  EXPECT_TRUE(eventually([&] {
+    return log.has("waiting for pictures on " + name_space + "/image, and for " + name_space + "/params and " +
+                   name_space + "/constants");
+  })) << "users see in the log what it waits for";
   EXPECT_TRUE(diagnostics.reports(status_name(), 1, "nothing on " + name_space + "/params"));
   advertise();
   Recorder<std_msgs::Float64> delays(node_name + "/delay");

@@ -36,6 +36,11 @@ bool is_advertised(const std::string& topic) {
                      [&topic](const auto& advertised) { return advertised.name == topic; });
 }
 
+bool LogRecorder::has(const std::string& text) const {
+  return std::any_of(log_.messages.begin(), log_.messages.end(),
+                     [&text](const rosgraph_msgs::Log& line) { return line.msg.find(text) != std::string::npos; });
+}
+
 TransformRecorder::TransformRecorder(const std::string& topic, std::string child) {
   subscriber_ = ::ros::NodeHandle().subscribe<tf2_msgs::TFMessage>(
       topic, 10000, [this, child = std::move(child)](const tf2_msgs::TFMessageConstPtr& message) {

@@ -14,6 +14,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gmock/gmock.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "nodes/ros_to_trk.h"
@@ -42,6 +43,15 @@ class Recorder {
 
  private:
   ::ros::Subscriber subscriber_;
+};
+
+/// What nodes log, from the topic /rosout.
+class LogRecorder {
+ public:
+  bool has(const std::string& text) const;
+
+ private:
+  Recorder<rosgraph_msgs::Log> log_{"/rosout"};
 };
 
 /// Transforms to one child frame, of /tf or /tf_static.

@@ -12,9 +12,9 @@
 #include <nodelet/nodelet.h>
 #include <ros/callback_queue.h>
 #include <ros/spinner.h>
-#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <std_msgs/Float64.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 #include <trk_bridge/CameraParams.h>
@@ -22,11 +22,13 @@
 #include <class_loader/class_loader.hpp>
 
 #include "demo/test_card.h"
+#include "demo/test_card_parameters.h"
 #include "error_of.h"
 #include "fixture.h"
 #include "picture_measure.h"
 #include "repeating.h"
 #include "ros/parameter_reader.h"
+#include "trk_bridge/camera/camera.h"
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/wire/format.h"
 
@@ -409,33 +411,61 @@ TEST_F(TestCard, KeepsItsRateAndDrawsTheNewestParams) {
 }
 
 TEST_F(TestCard, ReportsWhenTheMachineIsTooSlow) {
-  const Recorder<rosgraph_msgs::Log> log("/rosout");
+  const LogRecorder log;
   // No machine draws and rectifies a picture of this size within 4 ms.
   set_card("rate", 240);
   ASSERT_NO_FATAL_FAILURE(start_card());
   EXPECT_TRUE(send_until([](int) { return at(0, -5, 0, 1); },
-                         [&] {
-                           return std::any_of(log.messages.begin(), log.messages.end(), [](const auto& line) {
-                             return line.msg.find("this machine is too slow: a picture takes") != std::string::npos;
-                           });
-                         }))
+                         [&] { return log.has("this machine is too slow: a picture takes"); }))
       << "it does not report that";
 }
 
 TEST_F(TestCard, ReportsThatThereIsNoPictureWithoutConstants) {
-  const Recorder<rosgraph_msgs::Log> log("/rosout");
+  const LogRecorder log;
   ASSERT_NO_FATAL_FAILURE(start_card());
   const Repeating sending(50, [this] {
     auto record = at(0, 0, 0, 1);
     record.counter = ++counter_;
     tracker_->send(record);
   });
-  EXPECT_TRUE(eventually([&] {
-    return std::any_of(log.messages.begin(), log.messages.end(),
-                       [](const auto& line) { return line.msg.find("no constants yet") != std::string::npos; });
-  })) << "it does not report that";
+  EXPECT_TRUE(eventually([&] { return log.has("no picture: no constants yet"); })) << "it does not report that";
   EXPECT_TRUE(eventually([this] { return params_->messages.size() > 5; }));
   EXPECT_TRUE(images_->messages.empty());
+}
+
+TEST_F(TestCard, ReportsWhatIsWrongWithThePicture) {
+  const LogRecorder log;
+  ASSERT_NO_FATAL_FAILURE(start_card());
+  const auto send = [this](double fov, std::int32_t width) {
+    auto with = constants();
+    with.image_width = with.image_height = width;
+    tracker_->send(with);
+    auto record = at(0, 0, 0, 1);
+    record.fov = fov;
+    record.counter = ++counter_;
+    tracker_->send(record);
+  };
+  {
+    const Repeating sending(50, [&] { send(0, 720); });
+    EXPECT_TRUE(eventually([&] {
+      return log.has("no picture: " + camera::describe(camera::CameraReason::bad_field_of_view));
+    })) << "it does not report that";
+  }
+  {
+    const Repeating sending(50, [&] { send(60, 16384); });
+    EXPECT_TRUE(eventually([&] { return log.has("no picture: 16384 x 16384 pixels are more than 67108864"); }))
+        << "it does not report that";
+  }
+  EXPECT_TRUE(images_->messages.empty());
+}
+
+TEST_F(TestCard, ARandomDelayIsPublished) {
+  set_card("random_video_delay", true);
+  const Recorder<std_msgs::Float64> delay(name_space + "/video_delay");
+  ASSERT_NO_FATAL_FAILURE(start_card());
+  ASSERT_TRUE(eventually([&] { return !delay.messages.empty(); }));
+  EXPECT_GT(delay.messages[0].data, 0);
+  EXPECT_LT(delay.messages[0].data, demo::most_random_video_delay);
 }
 
 TEST_F(TestCard, RefusesUnknownParameters) {
