@@ -60,6 +60,27 @@ TEST_F(Conditions, AddedAtRunTimeItWaitsForItsTopicAndThenDraws) {
   }
 }
 
+TEST_F(Conditions, AddedByTopicItFindsTheOtherTopicOfTheCamera) {
+  const auto tracked = plain_camera(0, 15);
+  const PublishedCamera camera(unique("by_topic"), tracked);
+  const auto topics =
+      std::pair(QString::fromStdString(camera.info_topic()), QString::fromStdString(camera.params_topic()));
+  const auto topics_of = [](rviz::Display& display) {
+    return std::pair(property(display, {"Camera Info Topic"}).getValue().toString(),
+                     property(display, {"Camera Params Topic"}).getValue().toString());
+  };
+  auto& by_info = add_frustum("By info", "");
+  by_info.setTopic(topics.first, "sensor_msgs/CameraInfo");
+  EXPECT_EQ(topics_of(by_info), topics);
+  EXPECT_TRUE(becomes(tracked)) << statuses(by_info);
+  auto& by_params = add_frustum("By params", "");
+  by_params.setTopic(topics.second, "trk_bridge/CameraParams");
+  EXPECT_EQ(topics_of(by_params), topics);
+  auto& alone = add_frustum("Alone", "");
+  alone.setTopic("/nobody/camera_info", "sensor_msgs/CameraInfo");
+  EXPECT_EQ(topics_of(alone), std::pair(QString("/nobody/camera_info"), QString())) << "no params are published there";
+}
+
 TEST_F(Conditions, TheCameraChangesWithTheTopic) {
   const auto left = plain_camera(-1.5, 10), right = plain_camera(1.5, -20);
   const PublishedCamera one(unique("left"), left), other(unique("right"), right);
