@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include <ros/callback_queue.h>
 #include <sensor_msgs/Image.h>
 #include <std_msgs/Float64.h>
 #include <trk_bridge/CameraConstants.h>

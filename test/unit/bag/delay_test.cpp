@@ -34,9 +34,10 @@ class DelayOfBag : public BagTest {
  protected:
   void SetUp() override { bag_.emplace(directory / "video.bag"); }
 
-  void put_constants(const std::string& camera = "crane1") {
+  void put_constants(const std::string& camera = "crane1") { put_constants(test::video_constants(), camera); }
+  void put_constants(const wire::CameraConstants& constants, const std::string& camera = "crane1") {
     trk_bridge::CameraConstants message;
-    ros1::to_msg(test::video_constants(), message);
+    ros1::to_msg(constants, message);
     message.header.stamp = ::ros::Time(begin);
     bag_->put("/" + camera + "/constants", begin, message);
   }
@@ -138,6 +139,26 @@ TEST_F(DelayOfBag, ConstantsAreNeeded) {
   put_params();
   put_video();
   EXPECT_THAT(refusal(), HasSubstr("there is no message on /crane1/constants"));
+}
+
+TEST_F(DelayOfBag, ConstantsMustDescribeAPicture) {
+  auto constants = test::video_constants();
+  constants.chip_width = 0;
+  put_constants(constants);
+  put_params();
+  put_video();
+  EXPECT_THAT(refusal(), HasSubstr("constants of /crane1/constants describe no picture"));
+}
+
+TEST_F(DelayOfBag, ConstantsThatChangeAreRefusedWithTheRemedy) {
+  put_constants();
+  put_constants();
+  auto constants = test::video_constants();
+  constants.image_width += 2;
+  put_constants(constants);
+  put_params();
+  put_video();
+  EXPECT_THAT(refusal(), HasSubstr("constants of /crane1/constants change: cut the bag there (rosbag filter)"));
 }
 
 TEST_F(DelayOfBag, TheVideoIsThatOfTheCameraOrTheNamedOne) {

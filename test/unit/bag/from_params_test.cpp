@@ -79,6 +79,15 @@ TEST_F(FromParams, StampsThatContradictTheDefaultFieldRateNeedTheOption) {
   EXPECT_EQ(to_take(path, options).params.size(), 300u);
 }
 
+TEST_F(FromParams, TheChipIsThatOfTheConstants) {
+  put_constants();
+  put(counted(1, 4));
+  BagToTakeOptions options;
+  options.chip_width = 9.59;
+  EXPECT_THAT(refusal(bag.closed(), options),
+              HasSubstr("--chip-width, --chip-height: for bags without constants; this one has them"));
+}
+
 TEST_F(FromParams, OneOfSeveralCamerasMustBeChosen) {
   put_constants("/left");
   put(counted(1, 4), "/left");

@@ -81,6 +81,13 @@ TEST_F(Diagnostics, SendersThatAreNotAllowed) {
   expect(Level::warn, "only from senders that are not allowed, last 192.0.2.7:50123");
 }
 
+TEST_F(Diagnostics, SendersThatAreNotAllowedBesideOneThatIs) {
+  now.source.refused = 1;
+  now.source.last_refused = {transport::SenderKind::ipv4, {192, 0, 2, 7}, 50123};
+  expect(Level::warn, "receiving from");
+  expect(Level::warn, "datagrams from senders that are not allowed, last 192.0.2.7:50123");
+}
+
 TEST_F(Diagnostics, OtherIdsOnly) {
   now.camera = {};
   options.id = 7;
@@ -148,6 +155,13 @@ TEST_F(Diagnostics, ReasonsWhyStampsAreArrivals) {
   expect(Level::warn, "stamp: source, but the records have no time of the sender: stamps are arrivals");
 }
 
+TEST_F(Diagnostics, StampsOfTheSenderAreNamed) {
+  options.stamp = StampMode::source;
+  now.camera.stamp_state = StampState::source;
+  EXPECT_EQ(value("stamps"), "source");
+  expect(Level::ok, "receiving from");
+}
+
 TEST_F(Diagnostics, ASenderClockOnTaiIsNamed) {
   EXPECT_EQ(value("sender's time behind (s)"), "none");
   now.camera.source_behind = -37 * second + 30'000'000;
@@ -179,6 +193,16 @@ TEST_F(Diagnostics, ASecondSenderIsNamedWithTheOneThatIsFollowed) {
   now.camera.foreign_sender = {transport::SenderKind::ipv4, {192, 0, 2, 8}, 6000};
   expect(Level::warn, "records of a second sender, 192.0.2.8:6000, are ignored: this camera follows 192.0.2.7:5000");
   EXPECT_EQ(value("foreign"), "50");
+}
+
+TEST_F(Diagnostics, ASenderWithManyPortsIsNamed) {
+  now.camera.ignores_ports = true;
+  expect(Level::warn, "the sender changes its port with every datagram: senders are distinguished by their address");
+}
+
+TEST_F(Diagnostics, AnIdThatChangesIsNamedWithTheRemedy) {
+  now.camera.id_changes = 1;
+  expect(Level::warn, "the id changes: set the id that this camera should follow");
 }
 
 TEST_F(Diagnostics, AFailoverIsAnEventThatNamesBoth) {
@@ -233,6 +257,17 @@ TEST_F(Diagnostics, WithheldNamesTheFormatThatNeedsConstants) {
   now.camera.last_format = wire::euler | wire::field_of_view;
   expect(Level::warn, "no constants yet: format 'euler");
   EXPECT_EQ(value("withheld"), "100");
+}
+
+TEST_F(Diagnostics, WithheldNamesAnyOtherReason) {
+  now.camera.withheld = 1;
+  now.camera.withhold_reason = camera::CameraReason::bad_field_of_view;
+  expect(Level::warn, "params withheld: " + camera::describe(camera::CameraReason::bad_field_of_view));
+}
+
+TEST_F(Diagnostics, InvalidConstantsAreNamed) {
+  now.camera.bad_constants = 1;
+  expect(Level::warn, "constants ignored: " + camera::describe(camera::CameraReason::bad_constants));
 }
 
 TEST_F(Diagnostics, OnlyGrowthIsAFinding) {

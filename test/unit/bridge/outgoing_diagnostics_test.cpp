@@ -163,6 +163,13 @@ TEST_F(TfDiagnostics, ARefusedCameraInfoIsASeparateCondition) {
   EXPECT_EQ(findings(now, before, 50).front().condition, Condition::bad_camera_info);
 }
 
+TEST_F(TfDiagnostics, InvalidLensesAreAWarning) {
+  now.tf.bad_lenses = before.tf.bad_lenses = 2;
+  expect(status(), Level::ok, "sending");
+  now.tf.bad_lenses = 3;
+  expect(status(), Level::warn, "messages on lens ignored: focus or aperture is not finite");
+}
+
 TEST_F(TfDiagnostics, WhatTheLensLosesIsShownWithItsSize) {
   now.tf.tangential = 1.25;
   now.tf.residual = 0.5;

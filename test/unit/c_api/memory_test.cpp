@@ -156,13 +156,15 @@ std::size_t size_of(const FreeSlot& slot) {
   return ::shmctl(slot.segment(), IPC_STAT, &state) == 0 ? state.shm_segsz : 0;
 }
 
+struct LayoutOfEnvironment {
+  ~LayoutOfEnvironment() { ::unsetenv("TRK_LAYOUT"); }
+};
+
 TEST_F(Memory, has_the_layout_of_current_programs_unless_the_environment_sets_another) {
   ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK);
   EXPECT_EQ(size_of(slot), 544U);
   trkMemCloseAll();
-  struct Environment {
-    ~Environment() { ::unsetenv("TRK_LAYOUT"); }
-  } const restored;
+  const LayoutOfEnvironment restored;
   for (const auto& [word, size] : std::vector<std::pair<const char*, std::size_t>>{
            {"document", 528}, {"identified_i386", 524}, {"document_i386", 508}, {"auto", 544}}) {
     ::setenv("TRK_LAYOUT", word, 1);
@@ -176,6 +178,32 @@ TEST_F(Memory, has_the_layout_of_current_programs_unless_the_environment_sets_an
     EXPECT_EQ(trkMemOpen(slot.number(), &writer), trkFailed) << word;
     EXPECT_NE(::testing::internal::GetCapturedStderr().find(std::string("TRK_LAYOUT=") + word), std::string::npos);
     EXPECT_FALSE(slot.has_file());
+  }
+}
+
+TEST_F(Memory, passes_the_same_in_every_layout) {
+  const LayoutOfEnvironment restored;
+  for (const char* const word : {"document", "document_i386", "identified", "identified_i386"}) {
+    ::setenv("TRK_LAYOUT", word, 1);
+    ASSERT_EQ(trkMemOpen(slot.number(), &writer), trkOK) << word;
+    // A reader attaches to what there is, in any environment.
+    ::unsetenv("TRK_LAYOUT");
+    ASSERT_EQ(trkMemOpen(slot.number(), &reader), trkOK) << word;
+    trkCameraConstants constants = constants_in_c;
+    trkCameraParams sent = params_in_c(5);
+#ifdef TRK_IDENTIFIED
+    // The document's records have no id.
+    constants.id = sent.id = std::string(word).rfind("document", 0) == 0 ? 0 : 3;
+#endif
+    ASSERT_EQ(trkMemWriteConstants(writer, &constants), trkOK) << word;
+    ASSERT_EQ(trkMemWriteParams(writer, &sent), trkOK) << word;
+    ASSERT_EQ(trkMemReadConstants(reader, &c), trkOK) << word;
+    EXPECT_EQ(text_of(c), text_of(constants)) << word;
+    ASSERT_EQ(trkMemReadParams(reader, &p), trkOK) << word;
+    EXPECT_EQ(text_of(p), text_of(sent)) << word;
+    sent.k1 = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(trkMemWriteParams(writer, &sent), trkFailed) << word;
+    trkMemCloseAll();
   }
 }
 

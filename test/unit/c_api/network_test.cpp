@@ -87,6 +87,7 @@ TEST_P(Net, only_the_malformed_datagram_is_lost) {
   send({1});
   PlainSocket().send(std::string("DMC01\0PA1 garbage", 17), "127.0.0.1", port);
   PlainSocket().send("", "127.0.0.1", port);
+  PlainSocket().send(std::string(60000, 'A'), "127.0.0.1", port);
   send({2});
   ASSERT_EQ(trkNetReadParams(reader, &p), trkOK);
   EXPECT_EQ(p.counter, 2U);

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "camera_records.h"
 #include "freed/decoder.h"
@@ -16,6 +18,7 @@ namespace {
 using test::bytes;
 using test::table_of;
 using testing::HasSubstr;
+using testing::UnorderedElementsAre;
 
 /// The only datagram of the record, or the fault.
 std::string datagram_of(Encoder& encoder, const wire::CameraParams& params) {
@@ -145,6 +148,23 @@ TEST(FreeDEncoder, RecordsThatCannotBeWritten) {
   auto bad = test::constants(720, 7);
   bad.chip_width = 0;
   EXPECT_FALSE(encoder.begin(bad));
+}
+
+TEST(FreeDEncoder, ValuesOutOfRangeAreNamed) {
+  for (const double metres : {131.08, -131.08}) {
+    std::vector<std::string> refused;
+    for (double wire::Euler::*const member : {&wire::Euler::x, &wire::Euler::y, &wire::Euler::z}) {
+      auto p = looking(0);
+      p.euler.*member = metres;
+      refused.push_back(datagram_of(p));
+    }
+    const std::string allowed = " does not fit the message: allowed are -131.072 to 131.07198 m";
+    EXPECT_THAT(refused, UnorderedElementsAre("x" + allowed, "y" + allowed, "z" + allowed)) << metres;
+  }
+  auto p = test::params(1, 7);
+  p.focdist = 200000;
+  EXPECT_EQ(datagram_of(p, {Profile::zcam, nullptr, true}),
+            "focus does not fit the message: allowed are 0 to 16777215 as the profile counts");
 }
 
 TEST(FreeDEncoder, ATableConvertsBackToCounts) {

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "trk_bridge/camera/camera.h"
+
 namespace trk_bridge::lens {
 namespace {
 
@@ -174,6 +176,9 @@ TEST(LensTable, NumbersThatCannotBeComputedWithAreRefused) {
   EXPECT_EQ(error_of("constants: {image_width: 1920, image_height: 1080, chip_width: 9.6, chip_height: 5.4}\n"
                      "points:\n- {zoom: 10, focal_length: 8}\n- {zoom: 20, field_of_view: 1e-320}\n"),
             "lens.yaml:4: field_of_view: must be at least 1e-09, is 9.99989e-321");
+  EXPECT_EQ(error_of("constants: {image_width: 1920, image_height: 1080, chip_width: 9.6, chip_height: 5.4}\n"
+                     "points:\n- {zoom: 10, focal_length: 8}\n- {zoom: 20, field_of_view: 180}\n"),
+            "lens.yaml:4: field_of_view: must be more than 0 and less than 180 degrees, is 180");
   // The widest allowed range can be converted back.
   const Table table = table_of("points: [{zoom: -1e9, focal_length: 1e-9}, {zoom: 1e9, focal_length: 1e9}]");
   const auto at = table.position_of(*table.lens_at({1e8, 0}));
@@ -204,6 +209,8 @@ TEST(LensTable, FocusAndConstantsAreChecked) {
   EXPECT_THAT(error_of(points + "constants: {image_width: 1920}\n"), HasSubstr("image_height is missing"));
   EXPECT_THAT(error_of(points + "constants: {image_width: 1920.5, image_height: 1, chip_width: 1, chip_height: 1}\n"),
               HasSubstr("image_width: must be whole pixels"));
+  EXPECT_EQ(error_of(points + "constants: {image_width: 0, image_height: 1, chip_width: 1, chip_height: 1}\n"),
+            "lens.yaml:2: constants: " + camera::describe(camera::CameraReason::bad_constants));
   EXPECT_THAT(error_of(points + "interpolation: cubic"), HasSubstr("must be pchip or linear"));
 }
 

@@ -291,6 +291,34 @@ TEST(View, ShowsFaults) {
   EXPECT_THAT(text, HasSubstr("shift_on_chip and unknown bits"));
 }
 
+TEST(View, ShowsWhyValuesAreMissing) {
+  using camera::CameraReason;
+  auto state = state_with(1);
+  auto& latest = *state.cameras[0].latest;
+  latest.pose = tl::unexpected(CameraReason::not_a_rotation);
+  latest.horizontal_angle = tl::unexpected(CameraReason::bad_field_of_view);
+  state.cameras[0].constants->chip_width = 0;
+  const std::string text = joined(text_of(state, {200, 60}));
+  EXPECT_THAT(text, HasSubstr("no pose: " + camera::describe(CameraReason::not_a_rotation)));
+  EXPECT_THAT(text, HasSubstr("no angle: " + camera::describe(CameraReason::bad_field_of_view)));
+  EXPECT_THAT(text, HasSubstr(camera::describe(CameraReason::bad_constants)));
+}
+
+TEST(View, HasTheStateOfTheSource) {
+  using transport::SourceState;
+  auto state = state_with(1);
+  const auto shown = [&](SourceState source) {
+    state.source.state = source;
+    return text_of(state, {80, 24})[0];
+  };
+  EXPECT_THAT(shown(SourceState::waiting), StartsWith("trk monitor  waiting  "));
+  EXPECT_THAT(shown(SourceState::nothing_valid), StartsWith("trk monitor  nothing valid  "));
+  EXPECT_THAT(shown(SourceState::only_refused), StartsWith("trk monitor  nothing valid  "));
+  EXPECT_THAT(shown(SourceState::receiving), StartsWith("trk monitor  receiving  "));
+  EXPECT_THAT(shown(SourceState::ended), StartsWith("trk monitor  ended  "));
+  EXPECT_THAT(shown(SourceState::failed), StartsWith("trk monitor  failed  "));
+}
+
 TEST(View, FaultsAreHighlighted) {
   auto state = troubled_state(1);
   state.cameras[0].counts.lost = 4;

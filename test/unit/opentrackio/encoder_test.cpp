@@ -202,6 +202,20 @@ TEST(OpenTrackIoEncoder, TheSameRecordsToTheLastBit) {
   }
 }
 
+TEST(OpenTrackIoEncoder, AMatrixThatIsMissingInCustomIsNamed) {
+  std::size_t refused = 0;
+  for (const WorkedCase& c : test::worked_cases()) {
+    if (wire::has(c.params.format, wire::euler)) continue;
+    Json sample = sample_in(datagrams_of_case(c, from_source(9), Encoding::cbor));
+    ASSERT_EQ(sample.at("custom").at("trk").at("params").erase("matrix"), 1U);
+    PacketDecoder decoder(false, 37);
+    EXPECT_THAT(given(decoder, test::packet_of(sample.dump())).faults,
+                testing::ElementsAre("custom.trk.params.matrix is missing"));
+    ++refused;
+  }
+  EXPECT_GT(refused, 0U);
+}
+
 TEST(OpenTrackIoEncoder, TheSameCameraWithoutCustom) {
   for (const WorkedCase& c : test::worked_cases()) {
     Json sample = sample_in(datagrams_of_case(c, from_source(9), Encoding::cbor));

@@ -203,6 +203,12 @@ TEST(Usage, no_arguments_bring_up_what_is_required) {
     EXPECT_THAT(usage.rest_of_err(), StartsWith(expected)) << name;
     EXPECT_EQ(usage.rest_of_out(), "");
     EXPECT_EQ(usage.wait(), 1) << name;
+    for (const char* const word : {"--help", "-h"}) {
+      test::Program help({program(name), word});
+      EXPECT_THAT(help.rest_of_out(), StartsWith(expected)) << name;
+      EXPECT_EQ(help.rest_of_err(), "");
+      EXPECT_EQ(help.wait(), 0) << name;
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 // which are counted.
 #include <chrono>
 #include <functional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -28,6 +29,7 @@ using namespace std::chrono_literals;
 using endpoints::open_sink;
 using endpoints::open_source;
 using test::FieldProgram;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using transport::Event;
 using transport::Reception;
@@ -268,11 +270,13 @@ TEST_P(Guests, nothing_is_read_that_was_never_sent) {
   FieldProgram program(slot, of(guest.own));
   ASSERT_TRUE(program.open());
   std::uint64_t wrong = 0, right = 0;
+  std::set<std::string> faults;
   const auto sent_constants = constants(guest.id);
   const auto read_all = [&](const wire::CameraParams* last) {
     for (Event event = Event::malformed; event != Event::idle;) {
       // A malformed record is checked less often.
       event = source->receive(into, source->statistics().malformed > 0 ? 300us : 0us);
+      if (event == Event::malformed) faults.insert(describe(into.fault));
       if (event != Event::sample) continue;
       const auto* p = std::get_if<wire::CameraParams>(&into.sample.record);
       const bool is_sent = p != nullptr ? last != nullptr && *p == *last
@@ -294,6 +298,10 @@ TEST_P(Guests, nothing_is_read_that_was_never_sent) {
   if (right == 0) {
     if (source->statistics().malformed == 0) {
       EXPECT_THAT(source->statistics().waiting_for, HasSubstr("32-bit program")) << "it reports the reason";
+    } else {
+      const bool is_32_bit = guest.own < 528;
+      EXPECT_THAT(faults, ElementsAre(HasSubstr(is_32_bit ? "its writer may use the layout of another size"
+                                                          : "valid in both generations: the constants of the writer")));
     }
     EXPECT_NE(source->statistics().state, SourceState::receiving);
   }
