@@ -248,6 +248,10 @@ std::string ReceiveSocket::why_nothing_can_arrive() const {
     if (!interface_.empty()) {
       if (std::string why = why_unusable(interface_); !why.empty()) return why;
     }
+    if (is_group_ && interface_.empty() && multicast_interfaces(address_.family()).empty()) {
+      return std::string("no interface that is up receives multicast of ") +
+             (address_.family() == AF_INET ? "IPv4" : "IPv6");
+    }
     if (!is_group_ && !is_local(bound_address(socket_.get()))) {
       return "no interface that is up has the address " + settings_.host;
     }

@@ -58,6 +58,10 @@ class WithoutIpv6(Machine):
         output = self.run_on(IPV6_OFF, "\"$TRK\" dump 'udp://[::1]:7000' --seconds 0.1", expected=3)
         self.assertIn("no interface that is up has the address ::1", output)
 
+    def test_a_group_names_what_is_missing(self):
+        output = self.run_on(IPV6_OFF, "\"$TRK\" dump 'udp://[ff15::9]:7000' --seconds 0.1", expected=3)
+        self.assertIn("no interface that is up receives multicast of IPv6", output)
+
     def test_sending_says_what_the_system_refused(self):
         output = self.run_on(IPV6_OFF, "\"$TRK\" relay \"file:$TAKE?speed=0\" 'udp://[::1]:7000'", expected=1)
         self.assertIn("udp to [::1]:7000: the system refused: Cannot assign requested address", output)
