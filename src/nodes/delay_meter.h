@@ -51,6 +51,7 @@ class DelayMeter {
   delay::Measurement now_;
   std::optional<delay::Measurement> found_;  // the last one with a delay
   std::int64_t found_at_ = 0;                // steady clock, ns
+  std::int64_t due_ = 0;                     // the next measurement; steady clock, ns
 
   ::ros::Publisher delay_;
   ::ros::Subscriber constants_subscriber_, params_subscriber_;

@@ -18,7 +18,8 @@
 namespace trk_bridge::test {
 namespace {
 
-constexpr int rate = 50, seconds = 4;
+// Half of it is enough time to see a place on a machine that draws slowly.
+constexpr int rate = 50, seconds = 10;
 
 /// What a camera's node publishes in `seconds` at one place, then at another.
 void record(const std::string& path, const TrackedCamera& here, const TrackedCamera& there) {
@@ -58,7 +59,7 @@ TEST(Bag, IsDrawnInEveryLoop) {
 
   Program player(
       {"/usr/bin/env", "rosbag", "play", "--quiet", "--loop", "--clock", "--hz=100", directory / "short.bag"});
-  for (int loop = 0; loop < 3; ++loop) {
+  for (int loop = 0; loop < 2; ++loop) {
     SCOPED_TRACE("loop " + std::to_string(loop));
     ASSERT_TRUE(becomes(here)) << statuses(display);
     EXPECT_TRUE(vanishes(green)) << "positions after the current time are not in the trail";
