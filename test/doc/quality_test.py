@@ -4,7 +4,8 @@
 
 A figure is followed by the command that gives it, `12 files <!-- = ls test | wc -l -->`: the number before must be what the
 command prints. Tests that the page names as `ctest -R NAME` must exist in BUILD, files and scripts in backticks in ROOT.
-Every source file must have a copyright statement. Links are checked by links_test.py.
+Every source file must have a copyright statement. The table in doc/coverage.md must have the modules of src/, each with the
+part of lines that scripts/coverage asks for, and the files that the page names must exist. Links are checked by links_test.py.
 """
 
 import pathlib
@@ -53,6 +54,19 @@ def missing_paths(root, text):
             yield f"{path} does not exist"
 
 
+def coverage_faults(root, text):
+    sys.path.insert(0, str(root / "scripts"))
+    from coverage_table import limit_of  # the one of this root
+
+    table = dict(re.findall(r"^(\w+) +\d+ +([\d.]+) %", text, re.MULTILINE))
+    modules = {folder.name for folder in (root / "src").iterdir() if folder.is_dir()}
+    for name in sorted(modules ^ (table.keys() - {"all"})):
+        yield f"{name} is a module without a row in the table, or a row without a module"
+    for name in sorted(modules & table.keys()):
+        if float(table[name]) < limit_of(name):
+            yield f"{name}: {table[name]} % of the lines run, {limit_of(name)} % must"
+
+
 def without_copyright(root):
     listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z", *SOURCES], capture_output=True, check=False)
     if listed.returncode != 0:  # no clone
@@ -68,11 +82,15 @@ def without_copyright(root):
 def main():
     root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]
     build = (pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else root / "build").resolve()
-    text = (root / "QUALITY_DECLARATION.md").read_text(encoding="utf-8")
-    faults = [*stale_figures(root, text), *missing_tests(build, text), *missing_paths(root, text),
-              *without_copyright(root)]
+    declaration = (root / "QUALITY_DECLARATION.md").read_text(encoding="utf-8")
+    coverage = (root / "doc" / "coverage.md").read_text(encoding="utf-8")
+    faults = [f"QUALITY_DECLARATION.md: {fault}" for fault in (
+        *stale_figures(root, declaration), *missing_tests(build, declaration), *missing_paths(root, declaration))]
+    faults += [f"doc/coverage.md: {fault}" for fault in (
+        *coverage_faults(root, coverage), *missing_tests(build, coverage), *missing_paths(root, coverage))]
+    faults += without_copyright(root)
     for fault in faults:
-        print(f"QUALITY_DECLARATION.md: {fault}", file=sys.stderr)
+        print(fault, file=sys.stderr)
     return 1 if faults else 0
 
 
