@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <limits>
 #include <map>
 #include <optional>
 #include <random>
@@ -88,13 +89,12 @@ class ArrivalOrderRing {
     const Set newest = sets_.back();
     const bool ascends =
         std::is_sorted(sets_.begin(), sets_.end(), [](const Set& a, const Set& b) { return a.counter <= b.counter; });
-    if (last_ && newest.counter > *last_ && newest.counter - *last_ <= passed + tolerated && sets_.size() < 16 &&
-        ascends) {
+    if (newest.counter > last_ && newest.counter - last_ <= passed + tolerated && sets_.size() < 16 && ascends) {
       for (std::size_t i = 0; i < sets_.size(); ++i) {
-        if (sets_[i].counter < *last_ + passed) continue;
+        if (sets_[i].counter < last_ + passed) continue;
         const Set found = sets_[i];
         sets_.erase(sets_.begin(), sets_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-        *last_ += passed;
+        last_ += passed;
         return found;
       }
     }
@@ -105,7 +105,7 @@ class ArrivalOrderRing {
 
  private:
   std::deque<Set> sets_;
-  std::optional<std::uint64_t> last_;
+  std::uint64_t last_ = std::numeric_limits<std::uint64_t>::max();  // at first, no counter is greater
 };
 
 constexpr std::uint64_t passed = 1, tolerated = 2;
