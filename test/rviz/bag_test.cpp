@@ -59,7 +59,7 @@ TEST(Bag, IsDrawnInEveryLoop) {
 
   Program player(
       {"/usr/bin/env", "rosbag", "play", "--quiet", "--loop", "--clock", "--hz=100", directory / "short.bag"});
-  for (int loop = 0; loop < 2; ++loop) {
+  for (int loop = 0; loop < 3; ++loop) {
     SCOPED_TRACE("loop " + std::to_string(loop));
     ASSERT_TRUE(becomes(here)) << statuses(display);
     EXPECT_TRUE(vanishes(green)) << "positions after the current time are not in the trail";
