@@ -51,7 +51,9 @@ class Counts:
 def reports_of(notes):
     """gcov's reports on an object file: one for each source file in it."""
     done = subprocess.run(["gcov", "--json-format", "--branch-probabilities", "--stdout", notes],
-                          capture_output=True, check=True)
+                          capture_output=True, check=False)
+    if done.returncode != 0:
+        raise RuntimeError(f"gcov cannot read {notes}: {done.stderr.decode(errors='replace')}")
     for text in done.stdout.splitlines():
         report = json.loads(text)
         for file in report["files"]:
