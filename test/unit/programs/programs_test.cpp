@@ -193,16 +193,22 @@ TEST(Net, without_parameters_it_reports_that) {
   EXPECT_EQ(reader.wait(), 0);
 }
 
+constexpr std::pair<const char*, const char*> usages[] = {
+    {"read_mem", "Usage: read_mem SLOT\n"},   {"write_mem", "Usage: write_mem SLOT [WORDS]\n"},
+    {"read_net", "Usage: read_net PORT\n"},   {"write_net", "Usage: write_net HOST PORT [binary] [WORDS]\n"},
+    {"read_file", "Usage: read_file FILE\n"}, {"write_file", "Usage: write_file FILE [WORDS]\n"}};
+
 TEST(Usage, no_arguments_bring_up_what_is_required) {
-  const std::pair<const char*, const char*> usages[] = {
-      {"read_mem", "Usage: read_mem SLOT\n"},   {"write_mem", "Usage: write_mem SLOT [WORDS]\n"},
-      {"read_net", "Usage: read_net PORT\n"},   {"write_net", "Usage: write_net HOST PORT [binary] [WORDS]\n"},
-      {"read_file", "Usage: read_file FILE\n"}, {"write_file", "Usage: write_file FILE [WORDS]\n"}};
   for (const auto& [name, expected] : usages) {
     test::Program usage({program(name)});
     EXPECT_THAT(usage.rest_of_err(), StartsWith(expected)) << name;
     EXPECT_EQ(usage.rest_of_out(), "");
     EXPECT_EQ(usage.wait(), 1) << name;
+  }
+}
+
+TEST(Usage, help_is_no_error) {
+  for (const auto& [name, expected] : usages) {
     for (const char* const word : {"--help", "-h"}) {
       test::Program help({program(name), word});
       EXPECT_THAT(help.rest_of_out(), StartsWith(expected)) << name;
