@@ -61,7 +61,8 @@ def reports_of(notes):
 
 
 def merge(into, lines):
-    """`into`: line number -> [how often it ran, [how often each branch was taken]]."""
+    """`into`: line number -> [how often it ran, [how often each branch was taken]]. Of lists of branches that cannot be
+    added, because a template has more of them for another type, the longest counts."""
     for line in lines:
         branches = [branch["count"] for branch in line["branches"] if not branch["throw"]]
         known = into.setdefault(line["line_number"], [0, []])

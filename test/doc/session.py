@@ -18,8 +18,9 @@ _BAD_SIGNS = ("process has died", "escalating to SIGTERM", "Traceback (most rece
 
 # roslaunch writes to its log in its signal handler. If Ctrl-C comes while it is writing to it, Python's logging reports
 # this, and nothing else happens.
-_REENTRANT_LOG = re.compile(r"--- Logging error ---\nTraceback .*?\nRuntimeError: reentrant call .*?\nArguments: .*?\n",
-                            re.DOTALL)
+_WITHIN_ONE_ERROR = r"(?:(?!--- Logging error ---|Traceback ).)*?"
+_REENTRANT_LOG = re.compile(r"--- Logging error ---\nTraceback " + _WITHIN_ONE_ERROR + r"\nRuntimeError: reentrant call " +
+                            _WITHIN_ONE_ERROR + r"\nArguments: [^\n]*\n", re.DOTALL)
 
 
 class CommandError(Exception):

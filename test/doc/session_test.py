@@ -43,9 +43,11 @@ class Sessions(unittest.TestCase):
                "Message: 'ProcessMonitor.shutdown'\nArguments: ()\n")
         (self.folder / "log").write_text(log + log)
         self.terminals.run("cat log")
-        (self.folder / "log").write_text(log + log.replace("reentrant call inside", "no space for"))
-        with self.refused("says 'Traceback"):
-            self.terminals.run("cat log")
+        other = log.replace("reentrant call inside", "no space for")
+        for text in (log + other, other + log, "Traceback (most recent call last):\nOSError\n" + log):
+            (self.folder / "log").write_text(text)
+            with self.refused("says 'Traceback"):
+                self.terminals.run("cat log")
 
     def test_background_lives_until_ctrl_c(self):
         self.terminals.run_in_background("trap 'touch ended; exit 0' INT; echo up; while :; do sleep 0.05; done", "up")
