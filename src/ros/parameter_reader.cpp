@@ -35,6 +35,25 @@ std::string text_of(const XmlRpcValue& value) {
   return out.str();
 }
 
+/// A fault is one line of a C string, whatever text is given: control characters become "\n", "\t" or "\x00".
+std::string as_one_line(const std::string& text) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string line;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '\n') {
+      line += "\\n";
+    } else if (c == '\t') {
+      line += "\\t";
+    } else if (code < 0x20 || code == 0x7f) {
+      line += std::string("\\x") + digits[code / 16] + digits[code % 16];
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
 bool contains(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
@@ -112,7 +131,7 @@ ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string path, std:
     : tree_(tree), path_(std::move(path)), faults_(std::move(faults)) {
   if (tree_.getType() == XmlRpcValue::TypeStruct) return;
   // An empty map arrives as an invalid value.
-  if (tree_.valid()) faults_->lines.push_back('~' + path_ + " = " + text_of(tree_) + ": must be a map of parameters");
+  if (tree_.valid()) fault('~' + path_ + " = " + text_of(tree_) + ": must be a map of parameters");
   tree_.clear();
 }
 
@@ -151,10 +170,10 @@ void ParameterReader::fault(const std::string& key, const std::string& value, co
 
 void ParameterReader::fault(const std::string& key, const std::string& text) { add_line(key, key + ": " + text); }
 
-void ParameterReader::fault(const std::string& text) { faults_->lines.push_back(text); }
+void ParameterReader::fault(const std::string& text) { faults_->lines.push_back(as_one_line(text)); }
 
 void ParameterReader::add_line(const std::string& key, const std::string& line) {
-  faults_->lines.push_back('~' + path_ + line);
+  fault('~' + path_ + line);
   auto& given = faults_->given;
   if (has(key) && !contains(given, path_ + key)) given.push_back(path_ + key);
 }

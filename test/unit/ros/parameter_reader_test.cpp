@@ -103,6 +103,18 @@ TEST(ParameterReader, ValidTextsAreParsed) {
   EXPECT_EQ(end_of(reader), "no error");
 }
 
+TEST(ParameterReader, AFaultIsOneLineWhateverTextIsGiven) {
+  XmlRpcValue tree;
+  tree["length"] = std::string("two\nlines\tand \0 bells\a", 22);
+  tree["unknown"] = 1;
+  ParameterReader reader(tree);
+  int length = 0;
+  EXPECT_FALSE(reader.integer("length", length));
+  EXPECT_EQ(end_of(reader),
+            "~length = 'two\\nlines\\tand \\x00 bells\\x07': must be an integer\n"
+            "~unknown = 1: unknown parameter, nearest is length; known are length");
+}
+
 TEST(ParameterReader, AMapInheritsValidityAndAddsItsFaults) {
   XmlRpcValue tree;
   tree["rate"] = "fast";
