@@ -49,7 +49,7 @@ class Conditions : public TrkToRosTest {
 
 TEST_F(Conditions, DuplicatesAndLateRecordsAreNeverPublishedRestartsAre) {
   ASSERT_NO_FATAL_FAILURE(open());
-  for (const std::uint64_t counter : {1000, 1001, 1001, 1004, 1003, 1005, 3, 4, 3})
+  for (const std::uint64_t counter : {1000U, 1001U, 1001U, 1004U, 1003U, 1005U, 3U, 4U, 3U})
     tracker->send(test::params(counter));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "duplicate", "2"));
   EXPECT_TRUE(diagnostics.becomes(status_name(), "out of order", "1"));
