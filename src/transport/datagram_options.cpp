@@ -31,6 +31,11 @@ bool assign_hosts(const std::string& value, std::vector<std::string>& to) {
   return true;
 }
 
+std::string no_host(std::string_view place) {
+  return "host \"" + std::string(place) +
+         "\": a name, an IPv4 address or [an IPv6 address] and nothing after the port " + "is allowed";
+}
+
 struct HostAndPort {
   std::string_view host, port;
   bool has_port = false;
@@ -50,12 +55,7 @@ tl::expected<HostAndPort, std::string> split_host(std::string_view place) {
   if (parts.port.find(':') != std::string_view::npos) {
     return tl::make_unexpected("host \"" + std::string(place) + "\": an IPv6 address must be in [ ], as in [::1]:7000");
   }
-  const std::string_view beyond = parts.has_port ? std::string_view{} : rest;
-  if (parts.host.find_first_of("/ []") != std::string_view::npos || !beyond.empty()) {
-    return tl::make_unexpected("host \"" + std::string(place) +
-                               "\": a name, an IPv4 address or [an IPv6 address] and " +
-                               "nothing after the port is allowed");
-  }
+  if (!parts.has_port && !rest.empty()) return tl::make_unexpected(no_host(place));
   return parts;
 }
 
@@ -69,10 +69,13 @@ tl::expected<Place, std::string> place_in(const Url& url, Direction direction,
   if (url.place.compare(0, 2, "//") != 0) {
     return tl::make_unexpected("\"" + url.place + "\": " + url.scheme + "://HOST:PORT is allowed");
   }
-  const auto parts = split_host(std::string_view(url.place).substr(2));
+  const std::string_view place = std::string_view(url.place).substr(2);
+  const auto parts = split_host(place);
   if (!parts) return tl::make_unexpected(parts.error());
   const auto host = percent_decoded(parts->host);
   if (!host) return tl::make_unexpected("host = " + host.error());
+  // After decoding: written as %20, a space is no part of a name either.
+  if (host->find_first_of("/ []") != std::string::npos) return tl::make_unexpected(no_host(place));
   if (host->empty() && direction == Direction::write) {
     return tl::make_unexpected("no host: writing needs a host to send to, as in " + url.scheme + "://192.0.2.7:7000");
   }

@@ -82,7 +82,9 @@ TEST(UdpSettings, UdpWrongHostsAndPorts) {
   EXPECT_THAT(read_error("udp://::1:7000"), HasSubstr("[::1]:7000"));
   EXPECT_THAT(read_error("udp://[::1:7000"), HasSubstr("["));
   EXPECT_THAT(read_error("udp://[::1]7000"), HasSubstr("nothing after the port"));
-  EXPECT_THAT(read_error("udp://a b:7000"), HasSubstr("a b"));
+  for (const std::string wrong : {"a b:7000", "a%20b:7000", "a/b:7000", "a%2Fb:7000", "a[b:7000", "a%5Bb:7000"}) {
+    EXPECT_THAT(read_error("udp://" + wrong), HasSubstr("host \"" + wrong + "\": a name")) << wrong;
+  }
   EXPECT_THAT(read_error("udp:7000"), HasSubstr("udp://HOST:PORT"));
   EXPECT_THAT(write_error("udp://:7000"), HasSubstr("no host"));
   EXPECT_THAT(write_error("udp://host:0"), HasSubstr("1 to 65535"));
