@@ -52,9 +52,10 @@ void fit_distortion(const Undistort& undistort, double reach, double unit, Lens&
   lens.k2 = k[1] / (mm * mm) / (mm * mm);
 }
 
-/// The largest error of the distorted radius, in the same units.
+/// The largest error of the distorted radius in pixels, of which there are `pixels` per `unit`.
 template <typename Undistort>
-Result<double> radial_residual(const Undistort& undistort, double reach, double unit, const Lens& lens) noexcept {
+Result<double> radial_residual(const Undistort& undistort, double reach, double unit, double pixels,
+                               const Lens& lens) noexcept {
   Lens centered = lens;
   centered.center_shift.setZero();
   double worst = 0;
@@ -64,7 +65,8 @@ Result<double> radial_residual(const Undistort& undistort, double reach, double 
     if (!chip) return tl::unexpected(chip.error());
     worst = std::max(worst, std::abs(chip->x() / unit - wanted));
   }
-  return worst;
+  if (!std::isfinite(worst * pixels)) return tl::unexpected(CameraReason::not_finite);
+  return worst * pixels;
 }
 
 /// Value and slope of 1 + c1 s + c2 s^2 + c3 s^3.
@@ -136,9 +138,10 @@ Result<FittedLens> fit_lens(const std::array<double, 9>& k, const std::vector<do
   };
   fit_distortion(undistort, reach, unit, fitted.lens);
   if (monotonic_radius(fitted.lens) < reach * unit) return tl::unexpected(CameraReason::not_monotonic);
-  const Result<double> residual = radial_residual(undistort, reach, unit, fitted.lens);
+  const double pixels = std::max(view.lens.fx, view.lens.fy);
+  const Result<double> residual = radial_residual(undistort, reach, unit, pixels, fitted.lens);
   if (!residual) return tl::unexpected(residual.error());
-  fitted.residual = *residual * std::max(view.lens.fx, view.lens.fy);
+  fitted.residual = *residual;
   return fitted;
 }
 
@@ -160,9 +163,10 @@ Result<FittedLens> fit_lens(const Lens& lens, const Undistortion& distortion,
   fitted.lens = lens;
   fit_distortion(undistort, reach, 1, fitted.lens);
   if (!(monotonic_radius(fitted.lens) >= reach)) return tl::unexpected(CameraReason::not_monotonic);
-  const Result<double> residual = radial_residual(undistort, reach, 1, fitted.lens);
+  const double pixels = std::max(raster.mx, raster.my);
+  const Result<double> residual = radial_residual(undistort, reach, 1, pixels, fitted.lens);
   if (!residual) return tl::unexpected(residual.error());
-  fitted.residual = *residual * std::max(raster.mx, raster.my);
+  fitted.residual = *residual;
   return fitted;
 }
 

@@ -302,6 +302,17 @@ TEST(FitLens, ReportsHowMuchIsLost) {
   EXPECT_EQ(aspect->lens.image_distance, 10);
 }
 
+TEST(FitLens, AResidualThatIsNotFiniteIsRefused) {
+  auto tiny_chip = hd;
+  tiny_chip.chip_width = tiny_chip.chip_height = 1e-290;
+  Lens far_off;
+  far_off.image_distance = 8;
+  far_off.center_shift = {5e54, 5e54};
+  const auto fitted = fit_lens(far_off, {{1e10, 0, 0}, {}}, tiny_chip);
+  ASSERT_FALSE(fitted);
+  EXPECT_EQ(fitted.error(), CameraReason::not_finite);
+}
+
 TEST(FitLens, OfAnUndistortion) {
   const Lens lens = lens_with(1.05, 0.7);
   Lens bare = lens;
