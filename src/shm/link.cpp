@@ -197,12 +197,10 @@ tl::expected<const SegmentLayout*, transport::Fault> Link::layout_of_constants(c
   const SegmentLayout& own = segment_->layout();
   const SegmentLayout* const smaller = smaller_generation(own);
   const unsigned own_grade = wire::constants_grade(constants_in(image, own), own.record);
-  const std::string_view other = smaller != nullptr ? constants_in(image, *smaller) : std::string_view{};
-  const unsigned other_grade = smaller != nullptr ? wire::constants_grade(other, smaller->record) : 0;
-  // Zeros are plausible, but they may only be a part of the segment that is not used.
-  if (own_grade == 0 && (other_grade == 0 || is_all_zero(other))) {
-    return tl::unexpected(record_fault(RecordProblem::implausible, *segment_));
-  }
+  const unsigned other_grade =
+      smaller != nullptr ? wire::constants_grade(constants_in(image, *smaller), smaller->record) : 0;
+  // Without the sizes of an image and a chip, they may be zeros or parts of other numbers.
+  if (own_grade == 0 && other_grade < 2) return tl::unexpected(record_fault(RecordProblem::implausible, *segment_));
   const bool is_open = own_grade == other_grade && own_grade == 1;
   if (is_open) return writer_layout_ != nullptr ? writer_layout_ : &own;
   // Plausible constants of the larger generation are not plausible in the smaller one: the image size would be id and
