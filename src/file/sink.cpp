@@ -22,8 +22,8 @@ using transport::SinkReason;
 using transport::TransportError;
 using transport::WriteResult;
 
-/// How often writes try again to open a file that could not be opened.
-constexpr std::chrono::seconds retry_period{1};
+/// How often writes try again to open a file that could not be opened. A reader of a FIFO should not miss much.
+constexpr std::chrono::milliseconds retry_period{1000}, reader_retry_period{100};
 constexpr std::int64_t day = 86'400'000'000'000;  // ns
 
 class FileSink final : public transport::Sink {
@@ -52,6 +52,8 @@ class FileSink final : public transport::Sink {
     writer_.set_time_code(settings_.time_code ? *settings_.time_code : of_source ? of_source->code : of_day());
   }
   WriteResult open(std::int64_t time);
+  /// open(), and when to try again.
+  void try_to_open(std::int64_t time);
   WriteResult open_when_due(std::int64_t time);
   /// Publishes unfinished takes of dead writers, and reports them in notice().
   void recover();
@@ -91,11 +93,14 @@ WriteResult FileSink::open(std::int64_t time) {
   return {};
 }
 
-WriteResult FileSink::open_when_due(std::int64_t time) {
-  const auto now = steady_clock::now();
-  if (!opened_ && now < next_attempt_) return opened_;
-  next_attempt_ = now + retry_period;
+void FileSink::try_to_open(std::int64_t time) {
   opened_ = open(time);
+  const bool is_unread = !opened_ && opened_.error().reason == SinkReason::no_reader;
+  next_attempt_ = steady_clock::now() + (is_unread ? reader_retry_period : retry_period);
+}
+
+WriteResult FileSink::open_when_due(std::int64_t time) {
+  if (opened_ || steady_clock::now() >= next_attempt_) try_to_open(time);
   return opened_;
 }
 
@@ -111,8 +116,7 @@ void FileSink::get_ready() {
       opened_ = refused_by_system(errno);
     }
   } else {
-    opened_ = open(now);
-    next_attempt_ = steady_clock::now() + retry_period;
+    try_to_open(now);
   }
   if (opened_) return;
   if (opened_.error().reason == SinkReason::no_reader) {
