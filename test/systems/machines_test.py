@@ -14,6 +14,8 @@ import sys
 import unittest
 
 SKIPPED = 77  # SKIP_RETURN_CODE of ctest
+# The files of slots are shared with other tests, which take slots from 61 downwards (test/support/free_slot.h).
+SLOT, SLOT_FILE = 30, "/tmp/dmc_tracking_buffer.U"
 DEADLINE = 600  # seconds
 
 NAMESPACES = ["unshare", *([] if os.geteuid() == 0 else ["--map-root-user"]), "--net", "--ipc", "--mount", "--uts"]
@@ -83,14 +85,14 @@ class WithoutIpv6InTheKernel(Machine):
 
 class WithoutDevShm(Machine):
     def test_shared_memory_needs_none(self):
-        self.assert_received(NO_DEV_SHM, "shm:58", "shm:58?id=7")
+        self.assert_received(NO_DEV_SHM, f"shm:{SLOT}", f"shm:{SLOT}?id=7")
 
 
 class WithReadOnlyTmp(Machine):
     def test_a_slot_that_cannot_be_made_is_named(self):
-        output = self.run_on(READ_ONLY_TMP, '"$TRK" relay "file:$TAKE?speed=0" shm:58', expected=1)
-        self.assertIn("shm slot 58: /tmp/dmc_tracking_buffer.w: Read-only file system", output)
-        self.assertIn("slot 58", self.run_on(READ_ONLY_TMP, '"$WRITE_MEM" 58', expected=1))
+        output = self.run_on(READ_ONLY_TMP, f'"$TRK" relay "file:$TAKE?speed=0" shm:{SLOT}', expected=1)
+        self.assertIn(f"shm slot {SLOT}: {SLOT_FILE}: Read-only file system", output)
+        self.assertIn(f"slot {SLOT}", self.run_on(READ_ONLY_TMP, f'"$WRITE_MEM" {SLOT}', expected=1))
 
     def test_files_that_cannot_be_written_are_named(self):
         output = self.run_on(READ_ONLY_TMP, '"$TRK" relay "file:$TAKE?speed=0" file:/tmp/trk_bridge_test.trk', expected=1)
