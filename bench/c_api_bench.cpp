@@ -11,12 +11,13 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "free_slot.h"
 #include "trk_mem.h"
 #include "trk_net.h"
 
 namespace {
 
-constexpr int slot = 61;
+using namespace trk_bridge;
 
 trkCameraParams params() {
   trkCameraParams p{};
@@ -43,9 +44,10 @@ void two_copies_of_200_bytes(benchmark::State& state) {
 }
 
 void memory_write_and_read(benchmark::State& state) {
+  const test::FreeSlot slot;
   trkHandle writer = nullptr, reader = nullptr;
-  require(trkMemOpen(slot, &writer));
-  require(trkMemOpen(slot, &reader));
+  require(trkMemOpen(slot.number(), &writer));
+  require(trkMemOpen(slot.number(), &reader));
   trkCameraParams sent = params(), got{};
   for (auto _ : state) {
     ++sent.counter;
@@ -58,9 +60,10 @@ BENCHMARK(memory_write_and_read)->Name("BM_c_api_memory/ours");
 BENCHMARK(two_copies_of_200_bytes)->Name("BM_c_api_memory/peer");
 
 void memory_nothing_new(benchmark::State& state) {
+  const test::FreeSlot slot;
   trkHandle reader = nullptr, writer = nullptr;
-  require(trkMemOpen(slot, &writer));
-  require(trkMemOpen(slot, &reader));
+  require(trkMemOpen(slot.number(), &writer));
+  require(trkMemOpen(slot.number(), &reader));
   trkCameraParams got{};
   for (auto _ : state) benchmark::DoNotOptimize(trkMemReadParams(reader, &got));
   trkMemCloseAll();

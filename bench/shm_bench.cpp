@@ -34,9 +34,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "free_slot.h"
 #include "shm/scheme.h"
 #include "shm/segment.h"
-#include "shm/slot.h"
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/format.h"
@@ -150,14 +150,6 @@ wire::CameraParams params_of(std::uint64_t counter) {
   return params;
 }
 
-int free_slot() {
-  for (int slot = 30; slot >= 0; --slot) {  // tests use slots from the end
-    if (::access(shm::slot_path(slot).c_str(), F_OK) != 0) return slot;
-  }
-  std::fprintf(stderr, "shm_bench: every slot has a file\n");
-  std::exit(1);
-}
-
 const shm::SegmentLayout& layout() { return *shm::layout_of(shm::default_layout); }
 
 /// Writes like existing programs.
@@ -176,8 +168,9 @@ std::function<void(std::uint64_t)> field_writer(int id) {
 enum class WriterOf { field, ours };
 
 void read_by_source(Result& result, double rate, WriterOf writer_of, double seconds) {
+  const test::FreeSlot slot;
   shm::Settings settings;
-  settings.slot = free_slot();
+  settings.slot = slot.number();
   // Attached, so that the segment stays.
   const auto segment = shm::Segment::attach_or_create(settings.slot, layout(), 0600).value();
   const auto source = shm::open_source(settings);
@@ -196,8 +189,8 @@ void read_by_source(Result& result, double rate, WriterOf writer_of, double seco
 
 /// Lower limit of polling: reads the counter every 60 us.
 void read_by_poll(Result& result, double rate, WriterOf, double seconds) {
-  const int slot = free_slot();
-  const auto segment = shm::Segment::attach_or_create(slot, layout(), 0600).value();
+  const test::FreeSlot slot;
+  const auto segment = shm::Segment::attach_or_create(slot.number(), layout(), 0600).value();
   const Writer writer(rate, [&] { return field_writer(segment.id()); });
   ::prctl(PR_SET_TIMERSLACK, 1);
   std::uint16_t seen = segment.params_counter();
