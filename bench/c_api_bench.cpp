@@ -43,11 +43,12 @@ void two_copies_of_200_bytes(benchmark::State& state) {
   }
 }
 
-void memory_write_and_read(benchmark::State& state) {
+void memory_write_and_read(benchmark::State& state, bool has_own_reader) {
   const test::FreeSlot slot;
   trkHandle writer = nullptr, reader = nullptr;
   require(trkMemOpen(slot.number(), &writer));
-  require(trkMemOpen(slot.number(), &reader));
+  reader = writer;
+  if (has_own_reader) require(trkMemOpen(slot.number(), &reader));
   trkCameraParams sent = params(), got{};
   for (auto _ : state) {
     ++sent.counter;
@@ -56,7 +57,11 @@ void memory_write_and_read(benchmark::State& state) {
   }
   trkMemCloseAll();
 }
-BENCHMARK(memory_write_and_read)->Name("BM_c_api_memory/ours");
+void memory_two_handles(benchmark::State& state) { memory_write_and_read(state, true); }
+// Each handle has its own addresses. Some processors need longer to read what was written at another address.
+void memory_one_handle(benchmark::State& state) { memory_write_and_read(state, false); }
+BENCHMARK(memory_two_handles)->Name("BM_c_api_memory/ours");
+BENCHMARK(memory_one_handle)->Name("BM_c_api_memory_one_handle");
 BENCHMARK(two_copies_of_200_bytes)->Name("BM_c_api_memory/peer");
 
 void memory_nothing_new(benchmark::State& state) {

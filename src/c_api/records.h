@@ -99,7 +99,8 @@ inline wire::CameraConstants from_c(trkCameraConstants c) noexcept {
 /// Parameters in shm::default_layout, as programs in use have them in memory on a machine like this one. Words: id and
 /// format, the transform (16 numbers), seven numbers, the counter. From the transform on, the structures of both header
 /// sets are equal.
-using NativeParams = std::array<std::uint64_t, 25>;
+inline constexpr std::size_t native_words = 25;
+using NativeParams = std::array<std::uint64_t, native_words>;
 /// Whether the structures have this layout: not on 32-bit machines.
 inline constexpr bool has_native_params =
     sizeof(NativeParams) == sizeof(trkCameraParams) && offsetof(trkCameraParams, t) == sizeof(std::uint64_t) &&
@@ -110,42 +111,41 @@ inline unsigned format_of(const NativeParams& n) noexcept { return static_cast<u
 /// Indices of words: the first after the Euler angles, the transform and the lens.
 inline constexpr std::size_t after_euler = 7, after_transform = 17, after_lens = 24;
 
+/// The words of a structure. One at a time: programs have just changed some of them, and a wider load would stall.
+struct WordsOf {
+  const trkCameraParams& c;
+
+  std::uint64_t operator[](std::size_t i) const noexcept {
+    std::uint64_t word = 0;
+    std::memcpy(&word, reinterpret_cast<const char*>(&c) + i * sizeof word, sizeof word);
+#ifndef TRK_IDENTIFIED
+    if (i == 0) word = std::uint64_t{c.format} << 32U;
+#endif
+    return word;
+  }
+};
+
 /// Whether the numbers that the format uses are finite.
-inline bool is_finite(const NativeParams& n) noexcept {
+template <typename Words>
+bool is_finite(const Words& words, unsigned format) noexcept {
   // An exponent of all ones carries into bit 63 when its lowest bit is added. Integers, because a sum of doubles has to
   // wait for each term.
   constexpr std::uint64_t exponent = 0x7FF0'0000'0000'0000, lowest = 0x0010'0000'0000'0000;
   std::uint64_t carried = 0;
-  const auto carry = [&n, &carried](std::size_t i) { carried |= (n[i] & exponent) + lowest; };
+  const auto carry = [&](std::size_t i) { carried |= (words[i] & exponent) + lowest; };
 #pragma GCC unroll 8
   for (std::size_t i = after_transform; i < after_lens; ++i) carry(i);
 #pragma GCC unroll 8
   for (std::size_t i = 1; i < after_euler; ++i) carry(i);
-  if (!wire::has(format_of(n), wire::euler)) {
+  if (!wire::has(format, wire::euler)) {
 #pragma GCC unroll 16
     for (std::size_t i = after_euler; i < after_transform; ++i) carry(i);
   }
   return carried >> 63U == 0;
 }
 
-/// Sets the part of the transform that the format does not select to zero.
-inline void clear_unselected(NativeParams& n) noexcept {
-  if (!wire::has(format_of(n), wire::euler)) return;
-#pragma GCC unroll 10
-  for (std::size_t i = after_euler; i < after_transform; ++i) n[i] = 0;
-}
-
-inline NativeParams to_native(const trkCameraParams& c) noexcept {
-  NativeParams n;
-  // The counter is copied separately: programs have just incremented it, and a wider load would stall.
-  std::memcpy(n.data(), &c, sizeof n - sizeof n[0]);
-  n[24] = c.counter;
-#ifndef TRK_IDENTIFIED
-  n[0] = std::uint64_t{c.format} << 32U;
-#endif
-  clear_unselected(n);
-  return n;
-}
+/// Whether word i is a number of the matrix that Euler angles do not use: it is written as zero.
+constexpr bool is_beyond_euler(std::size_t i) noexcept { return i >= after_euler && i < after_transform; }
 
 inline void from_native(const NativeParams& n, trkCameraParams& c) noexcept {
 #ifdef TRK_IDENTIFIED

@@ -67,28 +67,22 @@ ReadResult read_new(Memory& memory, trkCameraConstants& into) noexcept {
   return result;
 }
 
-// Records in the layout of the structures of this program are copied directly.
+/// Whether the records of the segment have the layout of the structures of this program.
+bool is_native(const Memory& memory) noexcept {
+  return has_native_params && memory.segment()->layout().record == shm::default_layout;
+}
+
 ReadResult read_fresh(Memory& memory, trkCameraParams& into) noexcept {
-  shm::RecordImage image;
-  std::string_view bytes;
-  transport::Fault fault;
-  const ReadResult result = memory.read_params(image, bytes, fault);
-  if (result != ReadResult::fresh) return result;
-  if (has_native_params && memory.read_in() == shm::default_layout) {
-    // In words of the same size as they were copied from the segment: a wider load of data that was just written in
-    // smaller parts would stall.
-    NativeParams native;
-#pragma GCC unroll 1
-    for (std::size_t i = 0; i < native.size(); ++i) {
-      std::memcpy(&native[i], bytes.data() + i * sizeof native[i], sizeof native[i]);
-    }
-    if (!is_finite(native)) return ReadResult::malformed;
+  NativeParams native;
+  if (is_native(memory) && memory.read_known_params(native)) {
+    if (!is_finite(native, format_of(native))) return ReadResult::malformed;
     from_native(native, into);
-    return result;
+    return ReadResult::fresh;
   }
-  const auto params = wire::params_from_image(bytes, memory.read_in());
-  if (!params) return ReadResult::malformed;
-  into = to_c(*params);
+  wire::CameraParams params;
+  transport::Fault fault;
+  const ReadResult result = memory.read(params, fault);
+  if (result == ReadResult::fresh) into = to_c(params);
   return result;
 }
 
@@ -116,12 +110,14 @@ bool put(Memory& memory, const trkCameraConstants& constants) noexcept {
 }
 
 bool put(Memory& memory, const trkCameraParams& params) noexcept {
-  if (!has_native_params || memory.segment()->layout().record != shm::default_layout) {
-    return memory.write(from_c(params)).has_value();
+  if (!is_native(memory)) return memory.write(from_c(params)).has_value();
+  const WordsOf words{params};
+  if (!is_finite(words, params.format)) return false;
+  if (wire::has(params.format, wire::euler)) {
+    memory.write_params<native_words>([&](std::size_t i) { return is_beyond_euler(i) ? 0 : words[i]; });
+  } else {
+    memory.write_params<native_words>([&](std::size_t i) { return words[i]; });
   }
-  const NativeParams native = to_native(params);
-  if (!is_finite(native)) return false;
-  memory.write_params({reinterpret_cast<const char*>(native.data()), sizeof native});
   return true;
 }
 

@@ -235,38 +235,30 @@ tl::expected<const SegmentLayout*, transport::Fault> Link::layout_of_params(cons
 
 tl::expected<const SegmentLayout*, transport::Fault> Link::known_layout_of_params(const RecordImage& image) noexcept {
   const SegmentLayout& own = segment_->layout();
-  const std::string_view head = image.view().substr(0, 8);
-  if (known_head_ && std::memcmp(known_head_->data(), head.data(), sizeof *known_head_) == 0) return &own;
+  std::uint64_t head = 0;
+  std::memcpy(&head, image.view().data(), sizeof head);
+  if (known_head_ == head) return &own;
   known_head_.reset();
   const auto layout = layout_of_params(image);
-  if (layout && *layout == &own && writer_layout_ == &own) std::memcpy(known_head_.emplace().data(), head.data(), 8);
+  if (layout && *layout == &own && writer_layout_ == &own) known_head_ = head;
   return layout;
 }
 
-ReadResult Link::read_params(RecordImage& image, std::string_view& bytes, transport::Fault& fault) noexcept {
+ReadResult Link::read(wire::CameraParams& into, transport::Fault& fault) noexcept {
   if (!has_new_params()) return ReadResult::nothing;
+  RecordImage image;
   if (!segment_->copy_params(image)) {
     fault = record_fault(RecordProblem::unsteady, *segment_);
     return ReadResult::malformed;
   }
-  overwritten_ += static_cast<std::uint16_t>(image.counter - params_read_ - 1U);
-  params_read_ = image.counter;
+  count_params(image.counter);
   const auto layout = known_layout_of_params(image);
   if (!layout) {
     fault = fault_of(wire::params_from_image(image.view(), segment_->layout().record), layout.error());
     return ReadResult::malformed;
   }
   read_in_ = (*layout)->record;
-  bytes = params_in(image, **layout);
-  return ReadResult::fresh;
-}
-
-ReadResult Link::read(wire::CameraParams& into, transport::Fault& fault) noexcept {
-  RecordImage image;
-  std::string_view bytes;
-  const ReadResult result = read_params(image, bytes, fault);
-  if (result != ReadResult::fresh) return result;
-  const auto params = wire::params_from_image(bytes, read_in_);
+  const auto params = wire::params_from_image(params_in(image, **layout), read_in_);
   if (!params) {
     fault = params.error();
     return ReadResult::malformed;

@@ -87,18 +87,26 @@ class Link {
   /// The newest parameters (constants) that were not read yet; `fault` is set with malformed.
   [[nodiscard]] ReadResult read(wire::CameraParams& into, transport::Fault& fault) noexcept;
   [[nodiscard]] ReadResult read(wire::CameraConstants& into, transport::Fault& fault) noexcept;
-  /// As read() of parameters, but returns their bytes, in the layout read_in().
-  [[nodiscard]] ReadResult read_params(RecordImage& image, std::string_view& bytes, transport::Fault& fault) noexcept;
+  /// The same for parameters in the layout of the segment, as Segment::Words, from a writer that is known to use it.
+  /// False, and nothing is read: read() says what there is.
+  template <std::size_t count>
+  [[nodiscard]] bool read_known_params(Segment::Words<count>& into) noexcept {
+    std::uint16_t counter = 0;
+    if (!known_head_ || !segment_->copy_params(into, counter) || into[0] != *known_head_) return false;
+    count_params(counter);
+    read_in_ = segment_->layout().record;
+    return true;
+  }
   /// The layout of the last record read; before the first, that of the segment.
   wire::Layout read_in() const noexcept { return read_in_; }
 
   /// Requires a segment() that is writable(). A segment created later starts with the last constants written.
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraParams&) noexcept;
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraConstants&) noexcept;
-  /// Writes parameters that are in the layout of the segment.
-  void write_params(std::string_view image) noexcept {
+  template <std::size_t count, typename WordAt>
+  void write_params(WordAt&& word_at) noexcept {
     has_written_ = true;
-    segment_->write_params(image);
+    segment_->write_params<count>(word_at);
   }
 
   /// Detaches; keep() reattaches.
@@ -124,6 +132,10 @@ class Link {
   tl::expected<void, SlotFault> keep_now(Clock::time_point now) noexcept;
   tl::expected<void, SlotFault> keep_for_writing_now(Clock::time_point now) noexcept;
   bool begin_check_if_due(Clock::time_point now, std::chrono::milliseconds period) noexcept;
+  void count_params(std::uint16_t counter) noexcept {
+    overwritten_ += static_cast<std::uint16_t>(counter - params_read_ - 1U);
+    params_read_ = counter;
+  }
   Activity activity() const noexcept;
   bool is_alone_too_long(Clock::time_point now) noexcept;
   SlotFault release() noexcept;
@@ -144,7 +156,7 @@ class Link {
   const SegmentLayout* writer_layout_ = nullptr;  // of the records; null: not known yet
   // Id and format of the last parameters that were read in the layout of the segment itself: equal words belong to the
   // same writer, whose records need not be checked again.
-  std::optional<std::array<char, 8>> known_head_;
+  std::optional<std::uint64_t> known_head_;
   wire::Layout read_in_{};
   bool had_others_ = false;
   bool has_written_ = false;

@@ -21,9 +21,6 @@
 namespace trk_bridge::shm {
 namespace {
 
-// A copy takes well under a microsecond: a tracker does not disturb this many in a row.
-constexpr int copy_attempts = 64;
-
 void* const no_memory = reinterpret_cast<void*>(-1);
 
 // Every access to the shared memory is atomic. The builtins also work on memory that is not std::atomic.
@@ -264,7 +261,7 @@ tl::expected<Segment, SlotFault> Segment::attach_or_create(int slot, const Segme
 
 void Segment::count_in() noexcept {
   if (!writable_) return;
-  __atomic_add_fetch(at<std::int32_t>(base_, layout_->connected), 1, __ATOMIC_ACQ_REL);
+  __atomic_add_fetch(at<std::int32_t>(layout_->connected), 1, __ATOMIC_ACQ_REL);
   counted_ = true;
 }
 
@@ -272,7 +269,7 @@ void Segment::count_in() noexcept {
 // right number.
 void Segment::correct_count() noexcept {
   if (!writable_) return;
-  auto* const connected = at<std::int32_t>(base_, layout_->connected);
+  auto* const connected = at<std::int32_t>(layout_->connected);
   std::int32_t seen = __atomic_load_n(connected, __ATOMIC_ACQUIRE);
   const auto truth = static_cast<std::int32_t>(attachments());
   if (truth > 0 && seen != truth) {
@@ -284,9 +281,9 @@ void Segment::correct_count() noexcept {
 void Segment::finish() noexcept {
   count_in();
   if (layout_->magic_size == 8) {
-    __atomic_store_n(at<std::uint64_t>(base_, 0), std::uint64_t{segment_magic}, __ATOMIC_RELEASE);
+    __atomic_store_n(at<std::uint64_t>(0), std::uint64_t{segment_magic}, __ATOMIC_RELEASE);
   } else {
-    __atomic_store_n(at<std::uint32_t>(base_, 0), segment_magic, __ATOMIC_RELEASE);
+    __atomic_store_n(at<std::uint32_t>(0), segment_magic, __ATOMIC_RELEASE);
   }
   correct_count();
 }
@@ -299,7 +296,7 @@ char* Segment::release() noexcept {
 void Segment::close() noexcept {
   if (base_ == nullptr) return;
   if (counted_ && owner_ == ::getpid()) {
-    __atomic_sub_fetch(at<std::int32_t>(base_, layout_->connected), 1, __ATOMIC_ACQ_REL);
+    __atomic_sub_fetch(at<std::int32_t>(layout_->connected), 1, __ATOMIC_ACQ_REL);
   }
   // Detaches before it checks the count: if two processes detach at the same time, one of them sees that it is the
   // last.
@@ -308,7 +305,7 @@ void Segment::close() noexcept {
 }
 
 std::int32_t Segment::connected() const noexcept {
-  return __atomic_load_n(at<std::int32_t>(base_, layout_->connected), __ATOMIC_ACQUIRE);
+  return __atomic_load_n(at<std::int32_t>(layout_->connected), __ATOMIC_ACQUIRE);
 }
 
 AttachInfo Segment::attach_info() const noexcept {
@@ -332,21 +329,15 @@ SegmentStatus Segment::status(bool look_up) const noexcept {
 
 bool Segment::copy(std::size_t counter_at, std::array<std::size_t, 2> SegmentLayout::*elements,
                    std::size_t SegmentLayout::*size, RecordImage& into) const noexcept {
-  const auto* counter = at<std::uint16_t>(base_, counter_at);
   const SegmentLayout* const smaller = smaller_generation(*layout_);
   const SegmentLayout& other = smaller != nullptr ? *smaller : *layout_;
   into.size = layout_->*size;
-  for (int i = 0; i < copy_attempts; ++i) {
-    into.counter = __atomic_load_n(counter, __ATOMIC_ACQUIRE);
-    const std::size_t element = into.counter & 1U;
+  return copy_steadily(counter_at, into.counter, [&](std::size_t element) {
     const Range range = range_of(layout_->*elements, layout_->*size, other.*elements, other.*size, element);
     into.begin = range.begin;
     into.at = (layout_->*elements)[element];
     copy_words_out(base_ + range.begin, range.end - range.begin, into.bytes.data());
-    std::atomic_thread_fence(std::memory_order_acquire);
-    if (__atomic_load_n(counter, __ATOMIC_RELAXED) == into.counter) return true;
-  }
-  return false;
+  });
 }
 
 bool Segment::copy_params(RecordImage& into) const noexcept {
@@ -360,48 +351,34 @@ bool Segment::copy_constants(RecordImage& into) const noexcept {
 bool Segment::is_announced() const noexcept {
   // In this order, because a writer stores the announcement first.
   const std::uint16_t counter = params_counter();
-  const std::uint32_t announced = __atomic_load_n(at<std::uint32_t>(base_, page_rest::announcement), __ATOMIC_ACQUIRE);
+  const std::uint32_t announced = __atomic_load_n(at<std::uint32_t>(page_rest::announcement), __ATOMIC_ACQUIRE);
   const auto ahead = static_cast<std::uint16_t>(announced - counter);
   constexpr std::uint16_t most_between_two_loads = 16;
   return (announced & 0xFFFF0000U) == announcement_mark && ahead < most_between_two_loads;
 }
 
 Segment::Waiter Segment::wait_for_write() const noexcept {
-  auto* const word = at<std::uint32_t>(base_, page_rest::wake_word);
+  auto* const word = at<std::uint32_t>(page_rest::wake_word);
   return {word, __atomic_fetch_or(word, 1U, __ATOMIC_SEQ_CST) | 1U};
 }
 
-void Segment::announce() noexcept {
-  const auto next = static_cast<std::uint16_t>(params_counter() + 1U);
-  __atomic_store_n(at<std::uint32_t>(base_, page_rest::announcement), announcement_mark | next, __ATOMIC_RELAXED);
-}
-
-// Either this sees the waiting reader, or the reader sees the new record: both store first and load afterwards.
-void Segment::wake() noexcept {
-  std::atomic_thread_fence(std::memory_order_seq_cst);
-  auto* const word = at<std::uint32_t>(base_, page_rest::wake_word);
-  std::uint32_t value = __atomic_load_n(word, __ATOMIC_RELAXED);
-  if (value % 2 == 0) return;
+void Segment::wake(std::uint32_t value) noexcept {
+  auto* const word = at<std::uint32_t>(page_rest::wake_word);
   // If it fails, another writer has done the same.
   if (!__atomic_compare_exchange_n(word, &value, value + 1, false, __ATOMIC_SEQ_CST, __ATOMIC_RELAXED)) return;
   ::syscall(SYS_futex, word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
 }
 
 void Segment::put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept {
-  auto* counter = at<std::uint16_t>(base_, counter_at);
-  const auto next = static_cast<std::uint16_t>(__atomic_load_n(counter, __ATOMIC_RELAXED) + 1U);
-  // A slow reader may still copy this element: it must first see the counter of the previous write.
-  std::atomic_thread_fence(std::memory_order_release);
-  copy_words_in(image.data(), image.size(), base_ + elements[next & 1U]);
-  __atomic_store_n(counter, next, __ATOMIC_RELEASE);
-  wake();
+  put(counter_at, [&](std::size_t element) { copy_words_in(image.data(), image.size(), base_ + elements[element]); });
 }
 
 tl::expected<void, wire::Fault> Segment::write(const wire::CameraParams& params) noexcept {
   wire::Buffer buffer;
   const auto image = wire::to_image(params, layout_->record, buffer);
   if (!image) return tl::unexpected(image.error());
-  write_params(*image);
+  announce();
+  put(layout_->params_counter, layout_->params, *image);
   return {};
 }
 

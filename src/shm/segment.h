@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <ctime>
@@ -160,10 +161,30 @@ class Segment {
   /// number that is not finite), nothing is written. Must be writable().
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraParams&) noexcept;
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraConstants&) noexcept;
-  /// Writes parameters that are already in the layout of the segment, with its `params_size`.
-  void write_params(std::string_view image) noexcept {
+
+  /// Parameters as `count` words of 8 bytes, in the layout of the segment: its `params_size` must be that of the words,
+  /// and `params` multiples of 8. The functions
+  /// with words are a fast form of those above.
+  template <std::size_t count>
+  using Words = std::array<std::uint64_t, count>;
+  /// Also returns the write counter of these parameters. False as above.
+  template <std::size_t count>
+  [[nodiscard]] bool copy_params(Words<count>& into, std::uint16_t& counter) const noexcept {
+    return copy_steadily(layout_->params_counter, counter, [&](std::size_t element) {
+      const auto* const from = reinterpret_cast<const std::uint64_t*>(base_ + layout_->params[element]);
+#pragma GCC unroll 32
+      for (std::size_t i = 0; i < count; ++i) into[i] = __atomic_load_n(from + i, __ATOMIC_RELAXED);
+    });
+  }
+  /// `word_at(i)` returns word i. Must be writable().
+  template <std::size_t count, typename WordAt>
+  void write_params(WordAt&& word_at) noexcept {
     announce();
-    put(layout_->params_counter, layout_->params, image);
+    put(layout_->params_counter, [&](std::size_t element) {
+      auto* const to = reinterpret_cast<std::uint64_t*>(base_ + layout_->params[element]);
+#pragma GCC unroll 32
+      for (std::size_t i = 0; i < count; ++i) __atomic_store_n(to + i, word_at(i), __ATOMIC_RELAXED);
+    });
   }
 
   /// trkMemRecreate: replaces this segment by a new one with the same contents. After a fault there is no segment, and
@@ -171,18 +192,54 @@ class Segment {
   [[nodiscard]] tl::expected<void, SlotFault> recreate(int mode) noexcept;
 
  private:
+  // A copy takes well under a microsecond: a tracker does not disturb this many in a row.
+  static constexpr int copy_attempts = 64;
+
   Segment(int slot, int id, char* base, const SegmentLayout& layout, bool writable) noexcept;
   static tl::expected<Segment, SlotFault> create(int slot, const SegmentLayout&, int mode) noexcept;
   static tl::expected<Segment, SlotFault> adopt(int slot) noexcept;
-  // Shared with other processes: atomic.
-  std::uint16_t counter(std::size_t at) const noexcept {
-    return __atomic_load_n(reinterpret_cast<const std::uint16_t*>(base_ + at), __ATOMIC_ACQUIRE);
+  // Every access to the shared memory is atomic. The builtins also work on memory that is not std::atomic.
+  template <typename T>
+  T* at(std::size_t offset) const noexcept {
+    return reinterpret_cast<T*>(base_ + offset);
+  }
+  std::uint16_t counter(std::size_t offset) const noexcept {
+    return __atomic_load_n(at<std::uint16_t>(offset), __ATOMIC_ACQUIRE);
+  }
+  /// Calls copy_element(0 or 1) for the newest element until no writer changed it meanwhile; false: that never
+  /// happened.
+  template <typename CopyElement>
+  bool copy_steadily(std::size_t counter_at, std::uint16_t& copied, CopyElement&& copy_element) const noexcept {
+    for (int i = 0; i < copy_attempts; ++i) {
+      copied = counter(counter_at);
+      copy_element(copied & 1U);
+      std::atomic_thread_fence(std::memory_order_acquire);
+      if (__atomic_load_n(at<std::uint16_t>(counter_at), __ATOMIC_RELAXED) == copied) return true;
+    }
+    return false;
   }
   bool copy(std::size_t counter_at, std::array<std::size_t, 2> SegmentLayout::*elements,
             std::size_t SegmentLayout::*size, RecordImage& into) const noexcept;
-  void announce() noexcept;
-  void wake() noexcept;
+  void announce() noexcept {
+    const auto next = static_cast<std::uint16_t>(params_counter() + 1U);
+    __atomic_store_n(at<std::uint32_t>(page_rest::announcement), announcement_mark | next, __ATOMIC_RELAXED);
+  }
+  /// Calls fill_element(0 or 1) for the element that no reader copies, and makes it the newest.
+  template <typename FillElement>
+  void put(std::size_t counter_at, FillElement&& fill_element) noexcept {
+    auto* const counter = at<std::uint16_t>(counter_at);
+    const auto next = static_cast<std::uint16_t>(__atomic_load_n(counter, __ATOMIC_RELAXED) + 1U);
+    // A slow reader may still copy this element: it must first see the counter of the previous write.
+    std::atomic_thread_fence(std::memory_order_release);
+    fill_element(next & 1U);
+    __atomic_store_n(counter, next, __ATOMIC_RELEASE);
+    // Either this sees the waiting reader, or the reader sees the new record: both store first and load afterwards.
+    std::atomic_thread_fence(std::memory_order_seq_cst);
+    const std::uint32_t value = __atomic_load_n(at<std::uint32_t>(page_rest::wake_word), __ATOMIC_RELAXED);
+    if (value % 2 != 0) wake(value);
+  }
   void put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept;
+  void wake(std::uint32_t value) noexcept;
   void count_in() noexcept;
   void correct_count() noexcept;
   void finish() noexcept;
