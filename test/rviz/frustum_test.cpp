@@ -125,7 +125,10 @@ TEST_P(Frustum, IsAtThePoseOfTheTrackerAndNowhereElse) {
   track(tracked);
 
   const auto view = window().view();
-  const auto lines_of = [&](const TrackedCamera& one) { return seen_by(view, frustum(one, lens.near, lens.far)); };
+  // clang 14 cannot capture a structured binding.
+  const auto lines_of = [&view, near = lens.near, far = lens.far](const TrackedCamera& one) {
+    return seen_by(view, frustum(one, near, far));
+  };
   const auto lines = lines_of(tracked);
   for (const auto& line : lines) {
     for (const auto& point : line) ASSERT_TRUE(view.contains(point)) << "the view must show it completely";
