@@ -42,10 +42,10 @@ void add_video(Meter& meter, test::CardVideo& video, double rate, double seconds
 /// Replaces the tracking by samples that are stamped so that the video is later by `delay`.
 void add_tracking(Meter& meter, double delay, const Motion& motion, double jitter = 0) {
   std::mt19937 random(3);
-  std::normal_distribution<double> gauss(0, jitter);
+  std::normal_distribution<double> gauss;
   for (int i = 0; i < (before + quick_pans_end + after) * tracking_rate; ++i) {
     const double t = i / tracking_rate - before;
-    const double late = jitter > 0 ? std::clamp(gauss(random), -4 * jitter, 4 * jitter) : 0;
+    const double late = jitter * std::clamp(gauss(random), -4.0, 4.0);
     ASSERT_TRUE(meter.add(stamp(t - delay + late), motion(t)));
   }
 }
