@@ -163,8 +163,7 @@ class Segment {
   [[nodiscard]] tl::expected<void, wire::Fault> write(const wire::CameraConstants&) noexcept;
 
   /// Parameters as `count` words of 8 bytes, in the layout of the segment: its `params_size` must be that of the words,
-  /// and `params` multiples of 8. The functions
-  /// with words are a fast form of those above.
+  /// and `params` multiples of 8. The functions with words are a fast form of those above.
   template <std::size_t count>
   using Words = std::array<std::uint64_t, count>;
   /// Also returns the write counter of these parameters. False as above.
