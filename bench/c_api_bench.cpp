@@ -45,9 +45,9 @@ void two_copies_of_200_bytes(benchmark::State& state) {
 
 void memory_write_and_read(benchmark::State& state, bool has_own_reader) {
   const test::FreeSlot slot;
-  trkHandle writer = nullptr, reader = nullptr;
+  trkHandle writer = nullptr;
   require(trkMemOpen(slot.number(), &writer));
-  reader = writer;
+  trkHandle reader = writer;
   if (has_own_reader) require(trkMemOpen(slot.number(), &reader));
   trkCameraParams sent = params(), got{};
   for (auto _ : state) {

@@ -87,8 +87,8 @@ class Link {
   /// The newest parameters (constants) that were not read yet; `fault` is set with malformed.
   [[nodiscard]] ReadResult read(wire::CameraParams& into, transport::Fault& fault) noexcept;
   [[nodiscard]] ReadResult read(wire::CameraConstants& into, transport::Fault& fault) noexcept;
-  /// The same for parameters in the layout of the segment, as Segment::Words, from a writer that is known to use it.
-  /// False, and nothing is read: read() says what there is.
+  /// Reads parameters as Segment::Words if their writer is known to use the layout of the segment. If not, it returns
+  /// false and has read nothing: read() finds the layout and the faults.
   template <std::size_t count>
   [[nodiscard]] bool read_known_params(Segment::Words<count>& into) noexcept {
     std::uint16_t counter = 0;

@@ -23,22 +23,16 @@ namespace {
 
 void* const no_memory = reinterpret_cast<void*>(-1);
 
-// Every access to the shared memory is atomic. The builtins also work on memory that is not std::atomic.
-template <typename T>
-T* at(char* base, std::size_t offset) noexcept {
-  return reinterpret_cast<T*>(base + offset);
-}
-
 std::uint64_t magic_in(char* base, const SegmentLayout& layout) noexcept {
-  if (layout.magic_size == 8) return __atomic_load_n(at<std::uint64_t>(base, 0), __ATOMIC_ACQUIRE);
-  return __atomic_load_n(at<std::uint32_t>(base, 0), __ATOMIC_ACQUIRE);
+  if (layout.magic_size == 8) return __atomic_load_n(shared<std::uint64_t>(base, 0), __ATOMIC_ACQUIRE);
+  return __atomic_load_n(shared<std::uint32_t>(base, 0), __ATOMIC_ACQUIRE);
 }
 
 template <typename Word>
 void copy_out_by(char* from, std::size_t size, char* to) noexcept {
 #pragma GCC unroll 8
   for (std::size_t i = 0; i < size; i += sizeof(Word)) {
-    const Word word = __atomic_load_n(at<Word>(from, i), __ATOMIC_RELAXED);
+    const Word word = __atomic_load_n(shared<Word>(from, i), __ATOMIC_RELAXED);
     std::memcpy(to + i, &word, sizeof word);
   }
 }
@@ -49,7 +43,7 @@ void copy_in_by(const char* from, std::size_t size, char* to) noexcept {
   for (std::size_t i = 0; i < size; i += sizeof(Word)) {
     Word word = 0;
     std::memcpy(&word, from + i, sizeof word);
-    __atomic_store_n(at<Word>(to, i), word, __ATOMIC_RELAXED);
+    __atomic_store_n(shared<Word>(to, i), word, __ATOMIC_RELAXED);
   }
 }
 
@@ -261,7 +255,7 @@ tl::expected<Segment, SlotFault> Segment::attach_or_create(int slot, const Segme
 
 void Segment::count_in() noexcept {
   if (!writable_) return;
-  __atomic_add_fetch(at<std::int32_t>(layout_->connected), 1, __ATOMIC_ACQ_REL);
+  __atomic_add_fetch(shared<std::int32_t>(base_, layout_->connected), 1, __ATOMIC_ACQ_REL);
   counted_ = true;
 }
 
@@ -269,7 +263,7 @@ void Segment::count_in() noexcept {
 // right number.
 void Segment::correct_count() noexcept {
   if (!writable_) return;
-  auto* const connected = at<std::int32_t>(layout_->connected);
+  auto* const connected = shared<std::int32_t>(base_, layout_->connected);
   std::int32_t seen = __atomic_load_n(connected, __ATOMIC_ACQUIRE);
   const auto truth = static_cast<std::int32_t>(attachments());
   if (truth > 0 && seen != truth) {
@@ -281,9 +275,9 @@ void Segment::correct_count() noexcept {
 void Segment::finish() noexcept {
   count_in();
   if (layout_->magic_size == 8) {
-    __atomic_store_n(at<std::uint64_t>(0), std::uint64_t{segment_magic}, __ATOMIC_RELEASE);
+    __atomic_store_n(shared<std::uint64_t>(base_, 0), std::uint64_t{segment_magic}, __ATOMIC_RELEASE);
   } else {
-    __atomic_store_n(at<std::uint32_t>(0), segment_magic, __ATOMIC_RELEASE);
+    __atomic_store_n(shared<std::uint32_t>(base_, 0), segment_magic, __ATOMIC_RELEASE);
   }
   correct_count();
 }
@@ -296,7 +290,7 @@ char* Segment::release() noexcept {
 void Segment::close() noexcept {
   if (base_ == nullptr) return;
   if (counted_ && owner_ == ::getpid()) {
-    __atomic_sub_fetch(at<std::int32_t>(layout_->connected), 1, __ATOMIC_ACQ_REL);
+    __atomic_sub_fetch(shared<std::int32_t>(base_, layout_->connected), 1, __ATOMIC_ACQ_REL);
   }
   // Detaches before it checks the count: if two processes detach at the same time, one of them sees that it is the
   // last.
@@ -305,7 +299,7 @@ void Segment::close() noexcept {
 }
 
 std::int32_t Segment::connected() const noexcept {
-  return __atomic_load_n(at<std::int32_t>(layout_->connected), __ATOMIC_ACQUIRE);
+  return __atomic_load_n(shared<std::int32_t>(base_, layout_->connected), __ATOMIC_ACQUIRE);
 }
 
 AttachInfo Segment::attach_info() const noexcept {
@@ -332,7 +326,7 @@ bool Segment::copy(std::size_t counter_at, std::array<std::size_t, 2> SegmentLay
   const SegmentLayout* const smaller = smaller_generation(*layout_);
   const SegmentLayout& other = smaller != nullptr ? *smaller : *layout_;
   into.size = layout_->*size;
-  return copy_steadily(counter_at, into.counter, [&](std::size_t element) {
+  return copy_unchanged(counter_at, into.counter, [&](std::size_t element) {
     const Range range = range_of(layout_->*elements, layout_->*size, other.*elements, other.*size, element);
     into.begin = range.begin;
     into.at = (layout_->*elements)[element];
@@ -351,19 +345,20 @@ bool Segment::copy_constants(RecordImage& into) const noexcept {
 bool Segment::is_announced() const noexcept {
   // In this order, because a writer stores the announcement first.
   const std::uint16_t counter = params_counter();
-  const std::uint32_t announced = __atomic_load_n(at<std::uint32_t>(page_rest::announcement), __ATOMIC_ACQUIRE);
+  const std::uint32_t announced =
+      __atomic_load_n(shared<std::uint32_t>(base_, page_rest::announcement), __ATOMIC_ACQUIRE);
   const auto ahead = static_cast<std::uint16_t>(announced - counter);
   constexpr std::uint16_t most_between_two_loads = 16;
   return (announced & 0xFFFF0000U) == announcement_mark && ahead < most_between_two_loads;
 }
 
 Segment::Waiter Segment::wait_for_write() const noexcept {
-  auto* const word = at<std::uint32_t>(page_rest::wake_word);
+  auto* const word = shared<std::uint32_t>(base_, page_rest::wake_word);
   return {word, __atomic_fetch_or(word, 1U, __ATOMIC_SEQ_CST) | 1U};
 }
 
 void Segment::wake(std::uint32_t value) noexcept {
-  auto* const word = at<std::uint32_t>(page_rest::wake_word);
+  auto* const word = shared<std::uint32_t>(base_, page_rest::wake_word);
   // If it fails, another writer has done the same.
   if (!__atomic_compare_exchange_n(word, &value, value + 1, false, __ATOMIC_SEQ_CST, __ATOMIC_RELAXED)) return;
   ::syscall(SYS_futex, word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);

@@ -100,6 +100,13 @@ enum class SegmentStatus : std::uint8_t {
   replaced,  ///< the slot has another segment now
 };
 
+/// What is at an offset of the shared memory. Every access to it is atomic, by the builtins: they also work on memory that
+/// is not std::atomic.
+template <typename T>
+T* shared(char* base, std::size_t offset) noexcept {
+  return reinterpret_cast<T*>(base + offset);
+}
+
 /// One attachment. `connected` in the segment counts attachments; the last one of any process removes segment and file.
 /// The attach count of the kernel determines which one is last, not `connected`, which dead processes leave too high:
 /// attaching corrects it to the count of the kernel. Without write permission, a segment is attached read-only and its
@@ -169,8 +176,8 @@ class Segment {
   /// Also returns the write counter of these parameters. False as above.
   template <std::size_t count>
   [[nodiscard]] bool copy_params(Words<count>& into, std::uint16_t& counter) const noexcept {
-    return copy_steadily(layout_->params_counter, counter, [&](std::size_t element) {
-      const auto* const from = reinterpret_cast<const std::uint64_t*>(base_ + layout_->params[element]);
+    return copy_unchanged(layout_->params_counter, counter, [&](std::size_t element) {
+      const auto* const from = shared<std::uint64_t>(base_, layout_->params[element]);
 #pragma GCC unroll 32
       for (std::size_t i = 0; i < count; ++i) into[i] = __atomic_load_n(from + i, __ATOMIC_RELAXED);
     });
@@ -180,7 +187,7 @@ class Segment {
   void write_params(WordAt&& word_at) noexcept {
     announce();
     put(layout_->params_counter, [&](std::size_t element) {
-      auto* const to = reinterpret_cast<std::uint64_t*>(base_ + layout_->params[element]);
+      auto* const to = shared<std::uint64_t>(base_, layout_->params[element]);
 #pragma GCC unroll 32
       for (std::size_t i = 0; i < count; ++i) __atomic_store_n(to + i, word_at(i), __ATOMIC_RELAXED);
     });
@@ -197,23 +204,18 @@ class Segment {
   Segment(int slot, int id, char* base, const SegmentLayout& layout, bool writable) noexcept;
   static tl::expected<Segment, SlotFault> create(int slot, const SegmentLayout&, int mode) noexcept;
   static tl::expected<Segment, SlotFault> adopt(int slot) noexcept;
-  // Every access to the shared memory is atomic. The builtins also work on memory that is not std::atomic.
-  template <typename T>
-  T* at(std::size_t offset) const noexcept {
-    return reinterpret_cast<T*>(base_ + offset);
-  }
   std::uint16_t counter(std::size_t offset) const noexcept {
-    return __atomic_load_n(at<std::uint16_t>(offset), __ATOMIC_ACQUIRE);
+    return __atomic_load_n(shared<std::uint16_t>(base_, offset), __ATOMIC_ACQUIRE);
   }
-  /// Calls copy_element(0 or 1) for the newest element until no writer changed it meanwhile; false: that never
-  /// happened.
+  /// Calls copy_element(0 or 1) for the newest element until no writer changed it meanwhile. False after
+  /// `copy_attempts`.
   template <typename CopyElement>
-  bool copy_steadily(std::size_t counter_at, std::uint16_t& copied, CopyElement&& copy_element) const noexcept {
+  bool copy_unchanged(std::size_t counter_at, std::uint16_t& copied, CopyElement&& copy_element) const noexcept {
     for (int i = 0; i < copy_attempts; ++i) {
       copied = counter(counter_at);
       copy_element(copied & 1U);
       std::atomic_thread_fence(std::memory_order_acquire);
-      if (__atomic_load_n(at<std::uint16_t>(counter_at), __ATOMIC_RELAXED) == copied) return true;
+      if (__atomic_load_n(shared<std::uint16_t>(base_, counter_at), __ATOMIC_RELAXED) == copied) return true;
     }
     return false;
   }
@@ -221,12 +223,12 @@ class Segment {
             std::size_t SegmentLayout::*size, RecordImage& into) const noexcept;
   void announce() noexcept {
     const auto next = static_cast<std::uint16_t>(params_counter() + 1U);
-    __atomic_store_n(at<std::uint32_t>(page_rest::announcement), announcement_mark | next, __ATOMIC_RELAXED);
+    __atomic_store_n(shared<std::uint32_t>(base_, page_rest::announcement), announcement_mark | next, __ATOMIC_RELAXED);
   }
   /// Calls fill_element(0 or 1) for the element that no reader copies, and makes it the newest.
   template <typename FillElement>
   void put(std::size_t counter_at, FillElement&& fill_element) noexcept {
-    auto* const counter = at<std::uint16_t>(counter_at);
+    auto* const counter = shared<std::uint16_t>(base_, counter_at);
     const auto next = static_cast<std::uint16_t>(__atomic_load_n(counter, __ATOMIC_RELAXED) + 1U);
     // A slow reader may still copy this element: it must first see the counter of the previous write.
     std::atomic_thread_fence(std::memory_order_release);
@@ -234,7 +236,7 @@ class Segment {
     __atomic_store_n(counter, next, __ATOMIC_RELEASE);
     // Either this sees the waiting reader, or the reader sees the new record: both store first and load afterwards.
     std::atomic_thread_fence(std::memory_order_seq_cst);
-    const std::uint32_t value = __atomic_load_n(at<std::uint32_t>(page_rest::wake_word), __ATOMIC_RELAXED);
+    const std::uint32_t value = __atomic_load_n(shared<std::uint32_t>(base_, page_rest::wake_word), __ATOMIC_RELAXED);
     if (value % 2 != 0) wake(value);
   }
   void put(std::size_t counter_at, const std::array<std::size_t, 2>& elements, std::string_view image) noexcept;
