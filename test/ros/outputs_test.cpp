@@ -134,13 +134,13 @@ class Outputs : public NodeProcessTest {
     }
     std::sort(delays.begin(), delays.end());
     std::sort(gaps.begin(), gaps.end());
-    const auto tell = [](const char* what, const std::vector<double>& sorted) {
+    const auto print = [](const char* what, const std::vector<double>& sorted) {
       if (sorted.empty()) return;
       std::printf("%s of %zu: median %.2f, 95 %% %.2f, most %.2f ms\n", what, sorted.size(), sorted[sorted.size() / 2],
                   sorted[sorted.size() * 95 / 100], sorted.back());
     };
-    tell("delays", delays);
-    tell("gaps", gaps);
+    print("delays", delays);
+    print("gaps", gaps);
     // If it waited for the other sink, it would be 200 ms late, and later with every set.
     EXPECT_LT(delays[delays.size() / 2], 100);
     EXPECT_LT(delays.back(), 2000);
