@@ -100,8 +100,8 @@ enum class SegmentStatus : std::uint8_t {
   replaced,  ///< the slot has another segment now
 };
 
-/// What is at an offset of the shared memory. Every access to it is atomic, by the builtins: they also work on memory that
-/// is not std::atomic.
+/// What is at an offset of the shared memory. Every access to it is atomic, by the builtins: they also work on memory
+/// that is not std::atomic.
 template <typename T>
 T* shared(char* base, std::size_t offset) noexcept {
   return reinterpret_cast<T*>(base + offset);
