@@ -2,10 +2,12 @@
 // An unused shared memory slot for the duration of one test.
 #pragma once
 
+#include <cerrno>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/ipc.h>
@@ -51,11 +53,19 @@ class FreeSlot {
     return key == -1 ? -1 : ::shmget(key, 0, 0);
   }
 
-  /// Nothing where there is one.
+  /// Nothing where there is one. A test that deletes the file of a segment frees its inode: a file that gets this inode
+  /// has the key of that segment. Such files are replaced.
   void make_file() {
-    const int fd = ::open(path().c_str(), O_CREAT | O_RDONLY | O_CLOEXEC, 0755);
-    if (fd < 0) throw std::runtime_error("cannot make " + path());
-    ::close(fd);
+    std::vector<int> files;  // open until the end, so that each has another inode
+    while (true) {
+      const int fd = ::open(path().c_str(), O_CREAT | O_EXCL | O_RDONLY | O_CLOEXEC, 0755);
+      if (fd < 0 && errno == EEXIST) break;
+      if (fd < 0) throw std::runtime_error("cannot make " + path());
+      files.push_back(fd);
+      if (segment() < 0) break;
+      ::unlink(path().c_str());
+    }
+    for (const int fd : files) ::close(fd);
   }
 
   /// Creates file and segment as another program does. Returns the segment's id.

@@ -2,7 +2,10 @@
 // Existing programs together with this package: which may start first, what a program of another generation writes,
 // which are counted.
 #include <chrono>
+#include <cstdio>
+#include <fstream>
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
 #include <thread>
@@ -11,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include "deadline.h"
@@ -373,11 +377,13 @@ TEST_F(Field, a_slot_does_not_get_the_segment_of_another_whose_file_was_deleted)
   }, probe{};
   ASSERT_EQ(::stat(other.path().c_str(), &before), 0);
   ::unlink(other.path().c_str());
-  slot.make_file();
+  std::ofstream(slot.path()).close();
   ASSERT_EQ(::stat(slot.path().c_str(), &probe), 0);
   ::unlink(slot.path().c_str());
   if (probe.st_ino != before.st_ino) GTEST_SKIP() << "this file system does not use an inode again at once";
   const auto stranger = open_sink(url());
+  // Has the inode now, so that no file of another program gets the key of the segment.
+  const std::unique_ptr<std::FILE, decltype(&std::fclose)> placeholder(std::tmpfile(), &std::fclose);
   EXPECT_NE(slot.segment(), id);
   ASSERT_TRUE(stranger->write(params(1)));
   receive_for(*source, 50ms);
