@@ -94,10 +94,9 @@ inline ReadResult read_new(Memory& memory, trkCameraParams& into) noexcept {
 template <typename CRecord>
 trkError read(trkHandle handle, CRecord* into) {
   return guarded([&] {
-    const auto now = coarse_now();
     return handles<Memory>().with(handle, [&](Memory& memory) {
       if (into == nullptr) return trkFailed;
-      if (const auto kept = memory.keep(now); !kept) {
+      if (const auto kept = memory.keep(coarse_now()); !kept) {
         return shm::is_absence(kept.error().problem) ? trkUnavailable : error_of(kept.error());
       }
       return error_of(read_new(memory, *into));
@@ -124,10 +123,9 @@ bool put(Memory& memory, const trkCameraParams& params) noexcept {
 template <typename CRecord>
 trkError write(trkHandle handle, const CRecord* record) {
   return guarded([&] {
-    const auto now = coarse_now();
     return handles<Memory>().with(handle, [&](Memory& memory) {
       if (!is_writable(record)) return trkFailed;
-      if (const auto kept = memory.keep_for_writing(now); !kept) return error_of(kept.error());
+      if (const auto kept = memory.keep_for_writing(coarse_now()); !kept) return error_of(kept.error());
       if (!memory.segment()->writable()) return trkFailed;
       return put(memory, *record) ? trkOK : trkFailed;
     });

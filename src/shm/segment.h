@@ -207,13 +207,23 @@ class Segment {
   std::uint16_t counter(std::size_t offset) const noexcept {
     return __atomic_load_n(shared<std::uint16_t>(base_, offset), __ATOMIC_ACQUIRE);
   }
+  /// Calls use(0 or 1) with the element of a write counter. A branch, which processors predict: with an index, the use
+  /// would wait until the counter is read.
+  template <typename Use>
+  static void with_element(std::uint16_t counter, Use&& use) noexcept {
+    if (counter % 2 == 0) {
+      use(std::size_t{0});
+    } else {
+      use(std::size_t{1});
+    }
+  }
   /// Calls copy_element(0 or 1) for the newest element until no writer changed it meanwhile. False after
   /// `copy_attempts`.
   template <typename CopyElement>
   bool copy_unchanged(std::size_t counter_at, std::uint16_t& copied, CopyElement&& copy_element) const noexcept {
     for (int i = 0; i < copy_attempts; ++i) {
       copied = counter(counter_at);
-      copy_element(copied & 1U);
+      with_element(copied, copy_element);
       std::atomic_thread_fence(std::memory_order_acquire);
       if (__atomic_load_n(shared<std::uint16_t>(base_, counter_at), __ATOMIC_RELAXED) == copied) return true;
     }
@@ -232,7 +242,7 @@ class Segment {
     const auto next = static_cast<std::uint16_t>(__atomic_load_n(counter, __ATOMIC_RELAXED) + 1U);
     // A slow reader may still copy this element: it must first see the counter of the previous write.
     std::atomic_thread_fence(std::memory_order_release);
-    fill_element(next & 1U);
+    with_element(next, fill_element);
     __atomic_store_n(counter, next, __ATOMIC_RELEASE);
     // Either this sees the waiting reader, or the reader sees the new record: both store first and load afterwards.
     std::atomic_thread_fence(std::memory_order_seq_cst);
