@@ -48,22 +48,21 @@ class FreeSlot {
   bool has_file() const { return ::access(path().c_str(), F_OK) == 0; }
 
   /// -1: none.
-  int segment() const {
-    const key_t key = has_file() ? ::ftok(path().c_str(), 0) : -1;
-    return key == -1 ? -1 : ::shmget(key, 0, 0);
-  }
+  int segment() const { return segment_of(path()); }
 
-  /// Nothing where there is one. A test that deletes the file of a segment frees its inode: a file that gets this inode
-  /// has the key of that segment. Such files are replaced.
+  /// Does nothing if there is one. Another test may have deleted the file of a segment: a file that gets its inode has
+  /// the key of that segment, and is not used.
   void make_file() {
+    // It gets the name of the slot at the end: until then, no program creates a segment for it.
+    const std::string spare = path() + ".test";
     std::vector<int> files;  // open until the end, so that each has another inode
-    while (true) {
-      const int fd = ::open(path().c_str(), O_CREAT | O_EXCL | O_RDONLY | O_CLOEXEC, 0755);
-      if (fd < 0 && errno == EEXIST) break;
-      if (fd < 0) throw std::runtime_error("cannot make " + path());
-      files.push_back(fd);
-      if (segment() < 0) break;
-      ::unlink(path().c_str());
+    for (bool is_usable = false; !is_usable;) {
+      files.push_back(::open(spare.c_str(), O_CREAT | O_RDONLY | O_CLOEXEC, 0755));
+      if (files.back() < 0) throw std::runtime_error("cannot make " + spare);
+      is_usable = segment_of(spare) < 0;
+      const bool is_made = !is_usable || ::link(spare.c_str(), path().c_str()) == 0 || errno == EEXIST;
+      ::unlink(spare.c_str());
+      if (!is_made) throw std::runtime_error("cannot make " + path());
     }
     for (const int fd : files) ::close(fd);
   }
@@ -83,6 +82,11 @@ class FreeSlot {
   }
 
  private:
+  static int segment_of(const std::string& file) {
+    const key_t key = ::ftok(file.c_str(), 0);
+    return key == -1 ? -1 : ::shmget(key, 0, 0);
+  }
+
   int number_ = -1;
   std::optional<FileLock> lock_;
 };
