@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstdint>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -34,7 +33,7 @@ class DatagramSource final : public CountedSource {
       epoll_event readable{};
       readable.events = EPOLLIN;
       if (!readable_.is_open() || ::epoll_ctl(readable_.get(), EPOLL_CTL_ADD, socket->fd(), &readable) != 0) {
-        throw TransportError("no descriptor for waiting: " + std::generic_category().message(errno));
+        throw TransportError("no descriptor for waiting: " + system_text(errno));
       }
     }
   }

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <memory>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include <arpa/inet.h>
@@ -28,8 +27,6 @@ constexpr int ipv6_multicast_all = 29;
 constexpr int ipv6_unicast_if = 76;
 
 constexpr std::chrono::seconds retry_period{1};
-
-std::string system_text(int error) { return std::generic_category().message(error); }
 
 /// An address of an interface; its family is AF_UNSPEC if there is none.
 struct InterfaceAddress {

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
-#include <system_error>
 #include <utility>
 
 #include "base/clock.h"
@@ -18,8 +17,6 @@
 
 namespace trk_bridge::transport {
 namespace {
-
-std::string system_text(int error) { return std::generic_category().message(error); }
 
 bool is_every_interface(const std::string& host) { return host.empty() || host == "::"; }
 

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <memory>
 #include <optional>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -74,7 +73,7 @@ std::vector<SocketAddress> resolve(const std::string& host, std::uint16_t port) 
   Lookup lookup = look_up(split_zone(host).first, port, 0);
   if (lookup.error != 0) {
     const std::string reason =
-        lookup.error == EAI_SYSTEM ? std::generic_category().message(errno) : std::string(::gai_strerror(lookup.error));
+        lookup.error == EAI_SYSTEM ? system_text(errno) : std::string(::gai_strerror(lookup.error));
     throw TransportError("host \"" + host + "\": " + reason);
   }
   if (lookup.addresses.empty()) {
@@ -179,7 +178,7 @@ SocketAddress bound_address(int fd) {
   SocketAddress address;
   address.length = sizeof address.storage;
   if (::getsockname(fd, address.get(), &address.length) != 0) {
-    throw TransportError("the port of the socket cannot be read: " + std::generic_category().message(errno));
+    throw TransportError("the port of the socket cannot be read: " + system_text(errno));
   }
   return address;
 }

@@ -18,6 +18,9 @@
 
 namespace trk_bridge::transport {
 
+/// What the system says about an error number.
+inline std::string system_text(int error) { return std::generic_category().message(error); }
+
 class Descriptor {
  public:
   Descriptor() = default;
@@ -91,7 +94,7 @@ SocketAddress bound_address(int fd);
 template <typename T>
 void set_option(int fd, int level, int option, const T& value, const char* what) {
   if (::setsockopt(fd, level, option, &value, sizeof value) == 0) return;
-  throw TransportError(std::string(what) + ": the system refused: " + std::generic_category().message(errno));
+  throw TransportError(std::string(what) + ": the system refused: " + system_text(errno));
 }
 
 }  // namespace trk_bridge::transport
