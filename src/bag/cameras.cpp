@@ -19,14 +19,14 @@ std::optional<std::string> name_space_of(const std::string& topic, std::string_v
   return slash < begin ? std::string() : topic.substr(begin, slash - begin);
 }
 
-struct Topics {
+struct CameraTopics {
   bool params = false, camera_info = false;
   bool can(Input input) const { return input == Input::params ? params : camera_info; }
 };
 
 /// By type only: the MD5 sum of the message is checked for the chosen camera only.
-std::map<std::string, Topics> cameras_in(const std::vector<Connection>& connections) {
-  std::map<std::string, Topics> cameras;
+std::map<std::string, CameraTopics> cameras_in(const std::vector<Connection>& connections) {
+  std::map<std::string, CameraTopics> cameras;
   for (const auto& connection : connections) {
     if (connection.type == ::ros::message_traits::datatype<trk_bridge::CameraParams>()) {
       if (const auto name = name_space_of(connection.topic, "params")) cameras[*name].params = true;
@@ -38,7 +38,7 @@ std::map<std::string, Topics> cameras_in(const std::vector<Connection>& connecti
   return cameras;
 }
 
-std::string listed(const std::map<std::string, Topics>& cameras) {
+std::string listed(const std::map<std::string, CameraTopics>& cameras) {
   std::string text;
   for (const auto& [name, topics] : cameras) {
     text += (text.empty() ? "" : ", ") + (name.empty() ? std::string("/") : name) +

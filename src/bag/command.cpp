@@ -17,7 +17,7 @@
 namespace trk_bridge::bag {
 namespace {
 
-constexpr const char* help =
+constexpr const char* bag_help =
     "The bag holds what trk_to_ros would publish for a take, on /NAME/params, /NAME/constants, /NAME/camera_info, /tf "
     "and /tf_static. Without --date or --start its date is 1970-01-02, because a take does not contain its day. The "
     "take holds one set of parameters for every message of /NAME/params, or for every camera_info with a pose in tf; "
@@ -45,7 +45,7 @@ T value_of(const tl::expected<T, std::string>& parsed, const char* option) {
 }  // namespace
 
 Command::Command(CLI::App& app) : command_(app.add_subcommand("bag", "Convert a take to a bag, or a bag to a take")) {
-  command_->footer(help);
+  command_->footer(bag_help);
   command_->add_option("FROM", from_, "TAKE.trk or TAKE.bag")->required();
   command_->add_option("TO", to_, "The result: TAKE.bag or TAKE.trk")->required();
   command_->add_flag("--overwrite", overwrite_, "Replace TO if it exists");

@@ -23,7 +23,7 @@
 namespace trk_bridge::bag {
 namespace {
 
-constexpr const char* help =
+constexpr const char* delay_help =
     "The bag has NAME/params and NAME/constants of trk_to_ros and the camera's video, stamped by one clock. The camera "
     "should stand still, pan quickly and stop, a few times. A positive delay means that the video is late: set delay:= "
     "of ros_to_trk. A negative one means that tracking is late: add its amount to delay:= of trk_to_ros.";
@@ -137,7 +137,7 @@ delay::Measurement measure_delay(const std::string& path, const DelayOptions& op
 
 DelayCommand::DelayCommand(CLI::App& app)
     : command_(app.add_subcommand("delay", "Measure the delay between a camera's video and its tracking in a bag")) {
-  command_->footer(help);
+  command_->footer(delay_help);
   command_->add_option("BAG", bag_, "Recorded with params, constants and pictures of the camera")->required();
   command_->add_option("--camera", options_.camera, "Its name in the bag (default: the only one)")->type_name("NAME");
   command_->add_option("--image", options_.image, "Topic of its video (default: NAME/image_raw, or the only one)")

@@ -26,9 +26,9 @@ camera::Converter recorded_constants(Reader& bag, const std::string& topic, std:
 }
 
 /// Converts messages to fields with the format and id of the take.
-class Conversion {
+class ParamsConversion {
  public:
-  Conversion(const camera::Converter& converter, std::optional<std::uint32_t> id)
+  ParamsConversion(const camera::Converter& converter, std::optional<std::uint32_t> id)
       : converter_(converter), id_(id), constants_(*converter.outgoing()), recorded_id_(constants_.id) {
     if (id) constants_.id = *id;
   }
@@ -85,7 +85,7 @@ void fields_from_params(Reader& bag, const std::string& camera, const BagToTakeO
   }
   if (options.chip_width || options.chip_height) refuse_chip_options();
   RecordedConstants order(options.format);
-  Conversion conversion(converter, options.id);
+  ParamsConversion conversion(converter, options.id);
   Omissions omissions;
   std::uint64_t messages = 0, fields = 0;
   bag.read(

@@ -66,7 +66,7 @@ std::vector<TransformStamped> transforms_of(const RawMessage& raw) {
   return transforms;
 }
 
-struct Topics {
+struct TfTopics {
   std::string info, constants;
 
   bool operator()(const Connection& connection) const {
@@ -75,8 +75,8 @@ struct Topics {
   }
 };
 
-Topics checked_topics(const Reader& bag, const std::string& camera) {
-  Topics topics{topic_of(camera, "camera_info"), topic_of(camera, "constants")};
+TfTopics checked_topics(const Reader& bag, const std::string& camera) {
+  TfTopics topics{topic_of(camera, "camera_info"), topic_of(camera, "constants")};
   has_topic<sensor_msgs::CameraInfo>(bag.connections(), topics.info);
   has_topic<trk_bridge::CameraConstants>(bag.connections(), topics.constants);
   const bool has_tf = has_topic<tf2_msgs::TFMessage>(bag.connections(), "/tf");
@@ -85,7 +85,7 @@ Topics checked_topics(const Reader& bag, const std::string& camera) {
   return topics;
 }
 
-Survey survey_of(Reader& bag, const Topics& topics, std::uint32_t format) {
+Survey survey_of(Reader& bag, const TfTopics& topics, std::uint32_t format) {
   Survey survey{RecordedConstants(format), {}, {}, {}, {}};
   bag.read(topics, [&](const RawMessage& raw) {
     if (raw.connection.topic == topics.info) {
@@ -255,9 +255,9 @@ tl::expected<wire::CameraParams, std::string> params_of(const Poses& poses, Lens
 }
 
 /// Converts camera_info to fields in the order of stamps, each as soon as all transforms that it needs have been read.
-class Conversion {
+class TfConversion {
  public:
-  Conversion(const Survey& survey, const BagToTakeOptions& options, const FieldVisitor& visit)
+  TfConversion(const Survey& survey, const BagToTakeOptions& options, const FieldVisitor& visit)
       : options_(options),
         visit_(visit),
         converter_(survey.constants.converter()),
@@ -339,11 +339,11 @@ class Conversion {
 
 void fields_from_tf(Reader& bag, const std::string& camera, const BagToTakeOptions& options, cli::LongRun& run,
                     const FieldVisitor& visit, std::ostream& err) {
-  const Topics topics = checked_topics(bag, camera);
+  const TfTopics topics = checked_topics(bag, camera);
   Survey survey = survey_of(bag, topics, options.format.value_or(wire::euler));
   if (!survey.first) throw BagError("there is no message on " + topics.info);
   use_chip_options(survey, options);
-  Conversion conversion(survey, options, visit);
+  TfConversion conversion(survey, options, visit);
   bag.read(topics, [&](const RawMessage& raw) {
     if (raw.connection.topic == topics.info) {
       auto info = message_of<sensor_msgs::CameraInfo>(raw);

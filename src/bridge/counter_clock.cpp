@@ -13,7 +13,7 @@ namespace {
 // All times in ns.
 constexpr double millisecond = 1e6, second = 1e9;
 
-constexpr double memory = 30 * second;  // of the fitted line
+constexpr double line_memory = 30 * second;  // of the fitted line
 constexpr double jitter_memory = 120 * second;
 constexpr double recent = 2 * second;           // of recent_error_, recent_outliers_
 constexpr double closes_gap_in = 1.5 * second;  // time constant
@@ -180,7 +180,7 @@ void CounterClock::correct(double error, double counts) noexcept {
   ++samples_;
   ++offset_samples_;
   const double k = samples_;
-  const double lambda = std::exp(-counts * interval_ / memory);
+  const double lambda = std::exp(-counts * interval_ / line_memory);
   const double alpha = std::max({2 * (2 * k - 1) / (k * (k + 1)), 1 - lambda * lambda, 1 / offset_samples_});
   const double beta = std::max(6 / (k * (k + 1)), (1 - lambda) * (1 - lambda));
   line_ += alpha * error;

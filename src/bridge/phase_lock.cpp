@@ -8,7 +8,7 @@ namespace trk_bridge::bridge {
 namespace {
 
 /// Memory of the filter in samples: 4 s at 50 Hz.
-constexpr double memory = 200;
+constexpr double filter_memory = 200;
 /// After this many consecutive samples that do not fit, the rhythm has changed.
 constexpr int most_strays = 10;
 /// ns without a sample, after which the rhythm is measured again.
@@ -16,7 +16,7 @@ constexpr std::int64_t longest_gap = 1'000'000'000;
 /// ns after an expected arrival: the time until a sample is ready.
 constexpr double least_wait = 300'000;
 /// ns; limited because samples should be sent as new as possible. More jitter than this needs a delay.
-constexpr double longest_wait = 800'000;
+constexpr double longest_phase_wait = 800'000;
 /// Relative difference of rates that count as equal.
 constexpr double tolerance = 0.005;
 
@@ -72,7 +72,7 @@ void PhaseLock::learn(std::int64_t interval) noexcept {
 void PhaseLock::correct(double periods, double error) noexcept {
   // Fading-memory alpha-beta filter, whose memory grows to its length: the first samples count more.
   const auto k = static_cast<double>(++samples_ + first_intervals);
-  const double fading = std::exp(-1 / memory);
+  const double fading = std::exp(-1 / filter_memory);
   const double alpha = std::max(2 * (2 * k - 1) / (k * (k + 1)), 1 - fading * fading);
   const double beta = std::max(6 / (k * (k + 1)), (1 - fading) * (1 - fading));
   // Delays are rare and long: they are clipped, so that the rhythm stays where most samples are.
@@ -87,7 +87,7 @@ void PhaseLock::correct(double periods, double error) noexcept {
 }
 
 double PhaseLock::wait() const noexcept {
-  return std::min({least_wait + 3 * deviation_, longest_wait, sample_period_ / 4});
+  return std::min({least_wait + 3 * deviation_, longest_phase_wait, sample_period_ / 4});
 }
 
 double PhaseLock::step() const noexcept {

@@ -10,7 +10,7 @@
 namespace trk_bridge::camera {
 namespace {
 
-Result<void> check(const Lens& lens) noexcept {
+Result<void> check_lens(const Lens& lens) noexcept {
   if (!std::isfinite(lens.image_distance) || !lens.center_shift.allFinite() || !std::isfinite(lens.k1) ||
       !std::isfinite(lens.k2)) {
     return tl::unexpected(CameraReason::not_finite);
@@ -57,8 +57,8 @@ Result<Calibrator::Fit> Calibrator::fit(const Key& key) const noexcept {
 }
 
 Result<Calibration> Calibrator::calibrate(const Lens& lens, const wire::CameraConstants& constants) noexcept {
-  if (const auto checked = camera::check(constants); !checked) return tl::unexpected(checked.error());
-  if (const auto checked = check(lens); !checked) return tl::unexpected(checked.error());
+  if (const auto checked = check(constants); !checked) return tl::unexpected(checked.error());
+  if (const auto checked = check_lens(lens); !checked) return tl::unexpected(checked.error());
   const Raster raster = raster_of(constants);
   const Key key{lens.k1, lens.k2, image_reach(lens, raster), std::max(raster.mx, raster.my)};
   const bool kept = fit_ && fit_->key.k1 == key.k1 && fit_->key.k2 == key.k2 && fit_->key.reach == key.reach &&

@@ -11,8 +11,8 @@
 namespace trk_bridge::camera {
 namespace {
 
-constexpr int node_count = 48;
-constexpr int probe_count = 400;
+constexpr int sample_count = 48;
+constexpr int check_count = 400;
 constexpr int reweightings = 3;
 
 /// The curve to be fitted.
@@ -27,8 +27,8 @@ struct Curve {
 
 double residual_of(const Curve& curve, const RadialModel& model) noexcept {
   double worst = 0;
-  for (int i = 1; i <= probe_count; ++i) {
-    const double distorted = curve.reach * i / probe_count;
+  for (int i = 1; i <= check_count; ++i) {
+    const double distorted = curve.reach * i / check_count;
     const double error = std::abs(model.distorted(curve.undistorted(distorted)).value - distorted);
     if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
     worst = std::max(worst, error);
@@ -39,12 +39,12 @@ double residual_of(const Curve& curve, const RadialModel& model) noexcept {
 struct Sample {
   double undistorted, ratio;
 };
-using Samples = std::array<Sample, node_count>;
+using Samples = std::array<Sample, sample_count>;
 
 Samples sample(const Curve& curve) noexcept {
   Samples samples;
-  for (int i = 0; i < node_count; ++i) {
-    const double distorted = curve.reach * chebyshev_node(i, node_count);
+  for (int i = 0; i < sample_count; ++i) {
+    const double distorted = curve.reach * chebyshev_node(i, sample_count);
     const double undistorted = curve.undistorted(distorted);
     samples[static_cast<std::size_t>(i)] = {undistorted, distorted / undistorted};
   }
@@ -54,9 +54,9 @@ Samples sample(const Curve& curve) noexcept {
 /// One fit with `above` coefficients in the numerator and `below` in the denominator. The weight of a sample is its
 /// radius divided by the denominator of `weights`.
 RadialModel fit_weighted(const Samples& samples, int above, int below, const RadialModel& weights) noexcept {
-  Terms terms(node_count, above + below);
-  Values wanted(node_count);
-  for (int i = 0; i < node_count; ++i) {
+  Terms terms(sample_count, above + below);
+  Values wanted(sample_count);
+  for (int i = 0; i < sample_count; ++i) {
     const auto [undistorted, ratio] = samples[static_cast<std::size_t>(i)];
     const double s = undistorted * undistorted;
     const double weight = undistorted / weights.denominator(s);

@@ -21,7 +21,6 @@ constexpr std::array<Step, 6> steps{{{"pan left", "", 3},
                                      {"move to the back wall", "away from the audience", 1},
                                      {"move up", "", 2}}};
 
-constexpr std::size_t first_angle = 3;
 constexpr PoseNumbers far_enough{0.1, 0.1, 0.1, 5, 5, 5};
 constexpr double also_moved = 0.5;  // share of the largest, to be mentioned
 

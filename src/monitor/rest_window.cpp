@@ -5,12 +5,6 @@
 #include <cmath>
 
 namespace trk_bridge::monitor {
-namespace {
-
-constexpr std::size_t first_angle = 3;
-
-}  // namespace
-
 void RestWindow::add(std::int64_t arrival, const PoseNumbers& pose) {
   if (!entries_.empty() && arrival < entries_.back().arrival) entries_.clear();
   entries_.push_back({arrival, pose});

@@ -11,6 +11,8 @@ namespace trk_bridge::monitor {
 
 /// x, y, z in metres, pan, tilt, roll in degrees.
 using PoseNumbers = std::array<double, 6>;
+/// The numbers before it are lengths.
+inline constexpr std::size_t first_angle = 3;
 
 enum class Motion : std::uint8_t {
   unknown,  ///< too few poses within the window

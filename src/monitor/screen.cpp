@@ -16,26 +16,6 @@ namespace {
 
 extern "C" void trk_bridge_end_in_order(int) { ::raise(SIGTERM); }
 
-/// Converts one signal to SIGTERM, unless it is ignored.
-class PassedOn {
- public:
-  explicit PassedOn(int number) : number_(number) {
-    ::sigaction(number_, nullptr, &before_);
-    if (before_.sa_handler == SIG_IGN) return;
-    struct sigaction pass_on {};
-    pass_on.sa_handler = trk_bridge_end_in_order;
-    pass_on.sa_flags = SA_RESTART;
-    ::sigaction(number_, &pass_on, nullptr);
-  }
-  ~PassedOn() { ::sigaction(number_, &before_, nullptr); }
-  PassedOn(const PassedOn&) = delete;
-  PassedOn& operator=(const PassedOn&) = delete;
-
- private:
-  int number_;
-  struct sigaction before_ {};
-};
-
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
@@ -77,6 +57,26 @@ attr_t attributes(Style style, bool has_colour) {
 }  // namespace
 
 struct Screen::Terminal {
+  /// Converts one signal to SIGTERM, unless it is ignored.
+  class PassedOn {
+   public:
+    explicit PassedOn(int number) : number_(number) {
+      ::sigaction(number_, nullptr, &before_);
+      if (before_.sa_handler == SIG_IGN) return;
+      struct sigaction pass_on {};
+      pass_on.sa_handler = trk_bridge_end_in_order;
+      pass_on.sa_flags = SA_RESTART;
+      ::sigaction(number_, &pass_on, nullptr);
+    }
+    ~PassedOn() { ::sigaction(number_, &before_, nullptr); }
+    PassedOn(const PassedOn&) = delete;
+    PassedOn& operator=(const PassedOn&) = delete;
+
+   private:
+    int number_;
+    struct sigaction before_ {};
+  };
+
   Terminal() : screen(::newterm(nullptr, stdout, stdin)) {
     if (screen == nullptr) {
       throw std::runtime_error("TERM='" + variable("TERM") +

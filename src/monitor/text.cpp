@@ -10,7 +10,7 @@
 namespace trk_bridge::monitor {
 namespace {
 
-std::string milliseconds(std::int64_t nanoseconds) { return fixed(static_cast<double>(nanoseconds) * 1e-6, 3); }
+std::string fixed_milliseconds(std::int64_t nanoseconds) { return fixed(static_cast<double>(nanoseconds) * 1e-6, 3); }
 
 std::string seconds(double value) { return fixed(value, value < 10 ? 2 : 0); }
 
@@ -103,10 +103,10 @@ Group order(const base::SequenceCounts& counts) {
 Group jitter(const std::optional<Jitter>& jitter) {
   if (!jitter) return {"jitter", {{"interval", "-", "ms"}}};
   return {"jitter",
-          {{"interval", milliseconds(jitter->interval), "ms"},
-           {"jitter", milliseconds(jitter->p50), "ms"},
-           {"p99", milliseconds(jitter->p99), "ms"},
-           {"worst", milliseconds(jitter->worst), "ms"}}};
+          {{"interval", fixed_milliseconds(jitter->interval), "ms"},
+           {"jitter", fixed_milliseconds(jitter->p50), "ms"},
+           {"p99", fixed_milliseconds(jitter->p99), "ms"},
+           {"worst", fixed_milliseconds(jitter->worst), "ms"}}};
 }
 
 Group rest(const CameraState& camera) {

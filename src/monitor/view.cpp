@@ -16,7 +16,7 @@ constexpr std::size_t indent = 2;
 constexpr std::size_t cell_width = 19, value_end = 14;
 constexpr std::size_t columns_for_rows = 4;  // with fewer columns, groups do not begin new lines
 constexpr std::size_t most_columns = 6;
-constexpr std::size_t gap = 2;
+constexpr std::size_t column_gap = 2;
 constexpr std::size_t fewest_rows_with_keys = 6;
 constexpr std::size_t plot_rows = 7, fewest_plot_rows = 5, most_plots = 4;  // with its title
 constexpr std::size_t histogram_width = 32, fewest_columns_with_histogram = 72;
@@ -47,7 +47,9 @@ class Lines {
     begin_line(std::min(indentation, width_ / 2));
   }
   /// Appends to the line.
-  void flow(const std::string& text, Style style) { add(printable(text), style, is_begun_ ? used_ + gap : used_); }
+  void flow(const std::string& text, Style style) {
+    add(printable(text), style, is_begun_ ? used_ + column_gap : used_);
+  }
   /// Appends in the next column.
   void cell(const Cell& cell) {
     const std::size_t begun = used_ - begin_ + (is_begun_ ? 1 : 0);
@@ -203,7 +205,7 @@ std::string fitted(std::string text, std::size_t width) {
 /// `rows` lines: plots, and beside them the histogram.
 std::vector<Line> charts(const CameraState& camera, const Choice& choice, std::size_t width, std::size_t rows) {
   const bool has_histogram = width >= fewest_columns_with_histogram;
-  const std::size_t left = has_histogram ? width - histogram_width - gap : width;
+  const std::size_t left = has_histogram ? width - histogram_width - column_gap : width;
   const std::size_t plots = std::clamp<std::size_t>(rows / plot_rows, 1, most_plots);
   const auto span = static_cast<std::int64_t>(choice.seconds) * 1'000'000'000;
   const auto end = camera.history->newest() + static_cast<std::int64_t>(camera.latest->age * 1e9);
@@ -227,7 +229,7 @@ std::vector<Line> charts(const CameraState& camera, const Choice& choice, std::s
   std::vector<Line> lines;
   for (std::size_t row = 0; row < rows; ++row) {
     std::string line = fitted(row < text.size() ? text[row] : "", left);
-    if (has_histogram && row < bars.size()) line += std::string(gap, ' ') + bars[row];
+    if (has_histogram && row < bars.size()) line += std::string(column_gap, ' ') + bars[row];
     const bool is_title = std::find(titles.begin(), titles.end(), row) != titles.end();
     const std::size_t bold = is_title ? std::min(left, width) : 0;
     lines.push_back({{line.substr(0, bold), Style::heading}, {line.substr(bold, width - bold), Style::plain}});

@@ -21,9 +21,9 @@ class StatusReporter {
   /// The first finding of each kind is also logged. `options` are arguments of findings() for this report.
   template <typename... Options>
   bridge::Status status(Report now, const Options&... options) {
-    const auto found = bridge::findings(now, last_, options...);
+    const auto found = findings(now, last_, options...);
     bridge::Status status;
-    bridge::fill(status, found, now, last_);
+    fill(status, found, now, last_);
     log_.write(found);
     last_ = std::move(now);
     return status;

@@ -212,7 +212,7 @@ struct Place {
   std::size_t radial, opencv;
   int power;  // of F
 };
-constexpr std::array<Place, 6> places{{{0, 0, 2}, {2, 1, 4}, {4, 4, 6}, {1, 5, 2}, {3, 6, 4}, {5, 7, 6}}};
+constexpr std::array<Place, 6> coefficient_places{{{0, 0, 2}, {2, 1, 4}, {4, 4, 6}, {1, 5, 2}, {3, 6, 4}, {5, 7, 6}}};
 
 tl::expected<camera::Lens, Reason> fit(const Sample& sample, camera::Lens lens,
                                        const wire::CameraConstants& constants) noexcept {
@@ -222,7 +222,7 @@ tl::expected<camera::Lens, Reason> fit(const Sample& sample, camera::Lens lens,
     fitted = camera::fit_lens(lens, {{r[0], r[2], r[4]}, {r[1], r[3], r[5]}}, constants);
   } else {
     std::vector<double> d(8);
-    for (const Place& place : places) {
+    for (const Place& place : coefficient_places) {
       d[place.opencv] = sample.radial[place.radial] * std::pow(lens.image_distance, place.power);
     }
     fitted = camera::fit_lens(camera::camera_matrix(lens, constants), d, constants);
@@ -342,7 +342,7 @@ std::optional<transport::Fault> RecordsWriter::set_distortion(const camera::Lens
   if (camera.converter.incoming() == nullptr) return fault_of(camera::CameraReason::constants_needed);
   const auto calibration = camera.calibrator.calibrate(lens, *camera.converter.incoming());
   if (!calibration) return fault_of(calibration.error());
-  for (const Place& place : places) {
+  for (const Place& place : coefficient_places) {
     sample.radial[place.radial] = calibration->distortion.d[place.opencv] / std::pow(lens.image_distance, place.power);
   }
   return std::nullopt;

@@ -34,31 +34,31 @@ struct Member {
 };
 
 constexpr double any = std::numeric_limits<double>::max();
-constexpr double u32 = std::numeric_limits<std::uint32_t>::max();
+constexpr double max_u32 = std::numeric_limits<std::uint32_t>::max();
 constexpr double i32 = std::numeric_limits<std::int32_t>::max();
 constexpr double u48 = 281474976710655.0;
 
 constexpr std::array own_members{
     Member{Id::root, "", Kind::object},
-    Member{Id::root, "sourceNumber", Kind::whole, 0, u32},
+    Member{Id::root, "sourceNumber", Kind::whole, 0, max_u32},
     Member{Id::root, "timing", Kind::object},
-    Member{Id::timing, "sequenceNumber", Kind::whole, 0, u32},
+    Member{Id::timing, "sequenceNumber", Kind::whole, 0, max_u32},
     Member{Id::timing, "sampleTimestamp", Kind::object},
     Member{Id::timestamp, "seconds", Kind::whole, 0, u48},
-    Member{Id::timestamp, "nanoseconds", Kind::whole, 0, u32},
+    Member{Id::timestamp, "nanoseconds", Kind::whole, 0, max_u32},
     Member{Id::timing, "sampleRate", Kind::object},
     Member{Id::sample_rate, "num", Kind::whole, 1, i32},
-    Member{Id::sample_rate, "denom", Kind::whole, 1, u32},
+    Member{Id::sample_rate, "denom", Kind::whole, 1, max_u32},
     Member{Id::timing, "timecode", Kind::object},
     Member{Id::timecode, "hours", Kind::whole, 0, 23},
     Member{Id::timecode, "minutes", Kind::whole, 0, 59},
     Member{Id::timecode, "seconds", Kind::whole, 0, 59},
     Member{Id::timecode, "frames", Kind::whole, 0, 119},
-    Member{Id::timecode, "subFrame", Kind::whole, 0, u32},
+    Member{Id::timecode, "subFrame", Kind::whole, 0, max_u32},
     Member{Id::timecode, "dropFrame", Kind::flag},
     Member{Id::timecode, "frameRate", Kind::object},
     Member{Id::frame_rate, "num", Kind::whole, 1, i32},
-    Member{Id::frame_rate, "denom", Kind::whole, 1, u32},
+    Member{Id::frame_rate, "denom", Kind::whole, 1, max_u32},
     Member{Id::root, "lens", Kind::object},
     Member{Id::lens, "pinholeFocalLength", Kind::number, 0, any},
     Member{Id::lens, "focusDistance", Kind::number, 0, any},

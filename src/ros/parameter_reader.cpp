@@ -28,9 +28,11 @@ std::string text_of(const XmlRpcValue& value) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
   if (value.getType() == XmlRpcValue::TypeString) {
-    out << '\'' << value << '\'';
+    out << '\'';
+    value.write(out);
+    out << '\'';
   } else {
-    out << value;
+    value.write(out);
   }
   return out.str();
 }

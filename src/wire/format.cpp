@@ -19,28 +19,28 @@ struct Word {
 constexpr std::uint32_t angle_bits = vertical | diagonal;
 
 /// In the order of the document (section 6.2).
-constexpr std::array<Word, 19> words{{{"matrix", euler, 0},
-                                      {"euler", 0, euler},
-                                      {"camera_to_studio", studio_to_camera, 0},
-                                      {"studio_to_camera", 0, studio_to_camera},
-                                      {"camera_z_up", camera_y_up, 0},
-                                      {"camera_y_up", 0, camera_y_up},
-                                      {"studio_z_up", studio_y_up, 0},
-                                      {"studio_y_up", 0, studio_y_up},
-                                      {"image_distance", field_of_view, 0},
-                                      {"field_of_view", 0, field_of_view},
-                                      {"horizontal", angle_bits, 0},
-                                      {"vertical", angle_bits, vertical},
-                                      {"diagonal", angle_bits, diagonal},
-                                      {"consider_blank", ignore_blank, 0},
-                                      {"ignore_blank", 0, ignore_blank},
-                                      {"adjust_aspect", keep_aspect, 0},
-                                      {"keep_aspect", 0, keep_aspect},
-                                      {"shift_on_chip", shift_in_pixels, 0},
-                                      {"shift_in_pixels", 0, shift_in_pixels}}};
+constexpr std::array<Word, 19> known_words{{{"matrix", euler, 0},
+                                            {"euler", 0, euler},
+                                            {"camera_to_studio", studio_to_camera, 0},
+                                            {"studio_to_camera", 0, studio_to_camera},
+                                            {"camera_z_up", camera_y_up, 0},
+                                            {"camera_y_up", 0, camera_y_up},
+                                            {"studio_z_up", studio_y_up, 0},
+                                            {"studio_y_up", 0, studio_y_up},
+                                            {"image_distance", field_of_view, 0},
+                                            {"field_of_view", 0, field_of_view},
+                                            {"horizontal", angle_bits, 0},
+                                            {"vertical", angle_bits, vertical},
+                                            {"diagonal", angle_bits, diagonal},
+                                            {"consider_blank", ignore_blank, 0},
+                                            {"ignore_blank", 0, ignore_blank},
+                                            {"adjust_aspect", keep_aspect, 0},
+                                            {"keep_aspect", 0, keep_aspect},
+                                            {"shift_on_chip", shift_in_pixels, 0},
+                                            {"shift_in_pixels", 0, shift_in_pixels}}};
 
 std::optional<Word> find(std::string_view name) {
-  for (const Word& word : words) {
+  for (const Word& word : known_words) {
     if (same_word(word.name, name)) return word;
   }
   return std::nullopt;
@@ -89,7 +89,7 @@ tl::expected<std::uint32_t, std::string> format_from_words(std::string_view text
     const std::optional<Word> word = find(name);
     if (!word) {
       std::string error = "'" + std::string(name) + "' is not a format word; allowed are";
-      for (const Word& known : words) error += ' ' + std::string(known.name);
+      for (const Word& known : known_words) error += ' ' + std::string(known.name);
       return tl::unexpected(error);
     }
     mask = (mask & ~word->clears) | word->sets;
