@@ -10,6 +10,7 @@
 #include <ros/init.h>
 
 #include "crane_motion.h"
+#include "mains.h"
 #include "nodes/node.h"
 #include "ros/parameter_reader.h"
 #include "trk_bridge/ros/messages.h"
@@ -108,5 +109,7 @@ void CraneShot::publish(double seconds) {
   std::copy(moment.joints.begin(), moment.joints.end(), joint_state_.position.begin());
   joint_states_.publish(joint_state_);
 }
+
+int crane_shot_main(int argc, char** argv) { return nodes::node_main<CraneShot>(argc, argv, "crane_shot"); }
 
 }  // namespace trk_bridge::demo

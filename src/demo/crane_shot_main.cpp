@@ -1,7 +1,4 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-#include "crane_shot.h"
-#include "nodes/node.h"
+#include "mains.h"
 
-int main(int argc, char** argv) {
-  return trk_bridge::nodes::node_main<trk_bridge::demo::CraneShot>(argc, argv, "crane_shot");
-}
+int main(int argc, char** argv) { return trk_bridge::demo::crane_shot_main(argc, argv); }

@@ -13,6 +13,7 @@
 #include <visualization_msgs/MarkerArray.h>
 #include <opencv2/imgproc.hpp>
 
+#include "mains.h"
 #include "nodes/node.h"
 #include "test_card_markers.h"
 #include "test_card_parameters.h"
@@ -192,5 +193,7 @@ void TestCard::Problem::report(const std::string& now) {
   reported = now;
   if (!now.empty()) ROS_WARN_STREAM("test card: " << now);
 }
+
+int test_card_main(int argc, char** argv) { return nodes::node_main<TestCard>(argc, argv, "test_card"); }
 
 }  // namespace trk_bridge::demo

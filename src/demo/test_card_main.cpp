@@ -1,7 +1,4 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/node.h"
-#include "test_card.h"
+#include "mains.h"
 
-int main(int argc, char** argv) {
-  return trk_bridge::nodes::node_main<trk_bridge::demo::TestCard>(argc, argv, "test_card");
-}
+int main(int argc, char** argv) { return trk_bridge::demo::test_card_main(argc, argv); }

@@ -12,6 +12,7 @@
 #include "base/clock.h"
 #include "bridge/diagnostic_text.h"
 #include "delay/report.h"
+#include "mains.h"
 #include "node.h"
 #include "trk_bridge/ros/messages.h"
 
@@ -129,6 +130,8 @@ bridge::Status DelayMeter::describe() const {
 }
 
 using DelayMeterNodelet = RunningNodelet<DelayMeter>;
+
+int delay_meter_main(int argc, char** argv) { return node_main<DelayMeter>(argc, argv, "delay_meter"); }
 
 }  // namespace trk_bridge::nodes
 

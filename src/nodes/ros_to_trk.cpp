@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "mains.h"
 #include "node.h"
 #include "params_input.h"
 #include "ros/ros_to_trk_parameters.h"
@@ -85,5 +86,7 @@ Answer RosToTrk::change_timing() {
   return {true, "delay " + text(timing.delay.position) + ", lead " + text(timing.lead) +
                     ", for all sinks that a timer sends to, except where their URL sets it"};
 }
+
+int ros_to_trk_main(int argc, char** argv) { return node_main<RosToTrk>(argc, argv, "ros_to_trk"); }
 
 }  // namespace trk_bridge::nodes

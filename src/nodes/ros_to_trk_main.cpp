@@ -1,7 +1,4 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-#include "node.h"
-#include "ros_to_trk.h"
+#include "mains.h"
 
-int main(int argc, char** argv) {
-  return trk_bridge::nodes::node_main<trk_bridge::nodes::RosToTrk>(argc, argv, "ros_to_trk");
-}
+int main(int argc, char** argv) { return trk_bridge::nodes::ros_to_trk_main(argc, argv); }

@@ -8,6 +8,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "live_services.h"
+#include "mains.h"
 #include "node.h"
 #include "ros/trk_to_ros_parameters.h"
 #include "trk_bridge/ros/frames.h"
@@ -97,5 +98,7 @@ void TrkToRos::send_static_transforms() {
   }
   if (!transforms.empty()) static_transforms_.sendTransform(transforms);
 }
+
+int trk_to_ros_main(int argc, char** argv) { return node_main<TrkToRos>(argc, argv, "trk_to_ros"); }
 
 }  // namespace trk_bridge::nodes

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-// The test programs of the document (section 6.2), which use the C interface: one source, built once for each name in
-// the table below (TRK_BRIDGE_PROGRAM). Usage, output and exit codes (0 success, 1 failure) are those of existing
-// programs, because scripts rely on them.
+#include "programs.h"
+
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -218,7 +217,7 @@ constexpr Program programs[] = {
      any_number, write_file},
 };
 
-constexpr const Program& program_named(std::string_view name) {
+const Program& program_named(std::string_view name) {
   for (const Program& program : programs) {
     if (program.name == name) return program;
   }
@@ -243,15 +242,11 @@ void print_usage(std::FILE* out, const Program& program) {
 }
 
 }  // namespace
-}  // namespace trk_bridge::programs
 
-// A name that is missing in the table is a compile error.
-// NOLINTNEXTLINE(bugprone-exception-escape)
-int main(int argc, char** argv) {
-  using namespace trk_bridge::programs;
-  constexpr const Program& program = program_named(TRK_BRIDGE_PROGRAM);
-  trk_bridge::base::open_standard_descriptors();
+int run(const char* name, int argc, char** argv) {
+  base::open_standard_descriptors();
   try {
+    const Program& program = program_named(name);
     const Arguments arguments(argv + 1, argv + argc);
     if (arguments.size() == 1 && (arguments[0] == "--help" || arguments[0] == "-h")) {
       print_usage(stdout, program);
@@ -263,8 +258,10 @@ int main(int argc, char** argv) {
     }
     program.run(arguments);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, TRK_BRIDGE_PROGRAM ": %s\n", error.what());
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
     return 1;
   }
   return 0;
 }
+
+}  // namespace trk_bridge::programs
