@@ -60,18 +60,55 @@ function(trk_bridge_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${TRK_BRIDGE_TOOL_DIR})
 endfunction()
 
-# trk_bridge_gtest(NAME SOURCE... [LIBS LIB...]): a unit test, run by ctest and, with ROS, by catkin's run_tests.
+# trk_bridge_tests(MODULE TEST... [SUFFIX SUFFIX] [HEADERS TARGET] [LIBS LIB...]): the unit tests of a module: the program
+# MODULE_tests of all files TEST_test.cpp, and for each file a test MODULE_TEST_test of ctest and catkin's run_tests, which
+# runs only this file. One program, because the headers take most of the compile time of a test, and with
+# CMAKE_UNITY_BUILD the files of a program share them; therefore each file has a namespace of its name. SUFFIX is for a
+# second program of the same files, and part of all names. HEADERS is the target with the precompiled headers.
+function(trk_bridge_tests module)
+  cmake_parse_arguments(ARG "" "SUFFIX;HEADERS" "LIBS" ${ARGN})
+  set(program ${module}${ARG_SUFFIX}_tests)
+  list(TRANSFORM ARG_UNPARSED_ARGUMENTS APPEND _test.cpp OUTPUT_VARIABLE sources)
+  trk_bridge_test_program(${program} ${sources} HEADERS ${ARG_HEADERS} LIBS ${ARG_LIBS})
+  foreach(test ${ARG_UNPARSED_ARGUMENTS})
+    trk_bridge_add_test(${module}_${test}${ARG_SUFFIX}_test ${program} ${test}_test.cpp)
+  endforeach()
+endfunction()
+
+# trk_bridge_gtest(NAME SOURCE... [HEADERS TARGET] [LIBS LIB...]): a unit test that is a program of its own, because it
+# replaces functions of the process or has other libraries than the tests of its module.
 function(trk_bridge_gtest name)
-  cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
+  trk_bridge_test_program(${name} ${ARGN})
+  trk_bridge_add_test(${name} ${name})
+endfunction()
+
+# trk_bridge_test_program(NAME SOURCE... [HEADERS TARGET] [LIBS LIB...]): a program of tests, with test/support/main.cpp.
+function(trk_bridge_test_program name)
+  cmake_parse_arguments(ARG "" "HEADERS" "LIBS" ${ARGN})
+  if(NOT ARG_HEADERS)
+    set(ARG_HEADERS trk_bridge_test_headers)
+  endif()
   if(TRK_BRIDGE_ROS)
-    catkin_add_gmock(${name} ${ARG_UNPARSED_ARGUMENTS})
-    # gmock_main needs gmock, and archives are searched in order.
-    target_link_libraries(${name} ${ARG_LIBS} trk_bridge_options trk_bridge_test_support
-      ${GMOCK_MAIN_LIBRARIES} ${GMOCK_LIBRARIES})
+    catkin_add_executable_with_gmock(${name} ${ARG_UNPARSED_ARGUMENTS} EXCLUDE_FROM_ALL)
+    add_dependencies(tests ${name})
   else()
     add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
-    target_link_libraries(${name} ${ARG_LIBS} trk_bridge_options trk_bridge_test_support GTest::gmock_main)
-    add_test(NAME ${name} COMMAND ${name})
   endif()
-  target_precompile_headers(${name} REUSE_FROM trk_bridge_test_headers)
+  # Archives are searched in order: main() needs GoogleMock.
+  target_link_libraries(${name} ${ARG_LIBS} trk_bridge_options trk_bridge_test_support trk_bridge_test_main)
+  target_precompile_headers(${name} REUSE_FROM ${ARG_HEADERS})
+endfunction()
+
+# trk_bridge_add_test(NAME PROGRAM [FILE]): a test of ctest and, with ROS, of catkin's run_tests: all tests of a program, or
+# those of one of its files.
+function(trk_bridge_add_test name program)
+  set(command $<TARGET_FILE:${program}> ${ARGN})
+  if(TRK_BRIDGE_ROS)
+    set(results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/gtest-${name}.xml)
+    list(JOIN command " " command)
+    catkin_run_tests_target(gtest ${name} gtest-${name}.xml
+      COMMAND "${command} --gtest_output=xml:${results}" DEPENDENCIES ${program})
+  else()
+    add_test(NAME ${name} COMMAND ${command})
+  endif()
 endfunction()

@@ -15,8 +15,7 @@
 #include "receiver.h"
 #include "repeating.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::clocks_test {
 
 using diagnostic_msgs::DiagnosticStatus;
 using std::chrono::duration;
@@ -230,5 +229,4 @@ INSTANTIATE_TEST_SUITE_P(Of, SilentClock, ::testing::Values(TRK_TO_ROS, ROS_TO_T
                            return path.substr(path.find_last_of('/') + 1);
                          });
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::clocks_test

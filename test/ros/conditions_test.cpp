@@ -14,8 +14,7 @@
 #include "trk_bridge/ros/messages.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::conditions_test {
 
 using diagnostic_msgs::DiagnosticStatus;
 
@@ -257,5 +256,4 @@ TEST_F(Conditions, ABurstArrivesCompletely) {
   EXPECT_EQ(diagnostics.value(status_name(), "lost"), "0");
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::conditions_test

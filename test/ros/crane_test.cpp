@@ -20,8 +20,7 @@
 #include "roslaunch.h"
 #include "trk_bridge/ros/frames.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::crane_test {
 
 constexpr double metres = 1e-4;        // largest difference between the crane and what is received back
 constexpr double degrees = 1e-3;       // likewise
@@ -187,5 +186,4 @@ TEST(Crane, UsesJointStatesOfAnotherNode) {
 
 INSTANTIATE_TEST_SUITE_P(Presets, CraneRoundTrip, ::testing::Values("pixotope", "orad"));
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::crane_test

@@ -14,8 +14,7 @@
 #include "nodes/delay_meter.h"
 #include "trk_bridge/ros/messages.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::delay_meter_test {
 
 using ::testing::HasSubstr;
 
@@ -104,5 +103,4 @@ TEST_F(DelayMeter, WrongParametersAreRefused) {
   EXPECT_THAT(refusal(), HasSubstr("~window = 1000: must be 4 to 120 seconds"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::delay_meter_test

@@ -15,22 +15,31 @@
 #include "roslaunch.h"
 #include "trk_bridge/ros/messages.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::launched_test {
 
-/// The nodes run from the first test to the last.
+/// The nodes run from the first test that needs them to the end of the program.
 class LaunchedNodes : public ::testing::Environment {
  public:
-  void SetUp() override { roslaunch_.emplace(std::vector<std::string>{LAUNCH_FILE}); }
+  void start() {
+    if (!roslaunch_) roslaunch_.emplace(std::vector<std::string>{LAUNCH_FILE});
+  }
   void TearDown() override { roslaunch_.reset(); }
 
  private:
   std::optional<Roslaunch> roslaunch_;
 };
 
-const auto* const launched_nodes = ::testing::AddGlobalTestEnvironment(new LaunchedNodes);
+auto* const launched_nodes = new LaunchedNodes;
+const auto* const registered = ::testing::AddGlobalTestEnvironment(launched_nodes);
 
-class Launched : public ::testing::TestWithParam<const char*> {};
+class Launched : public ::testing::TestWithParam<const char*> {
+ protected:
+  Launched() { launched_nodes->start(); }
+};
+class LaunchedMarkers : public ::testing::Test {
+ protected:
+  LaunchedMarkers() { launched_nodes->start(); }
+};
 
 TEST_P(Launched, PublishesInTheNamespaceOfItsCamera) {
   const std::string camera = GetParam();
@@ -47,7 +56,7 @@ TEST_P(Launched, PublishesInTheNamespaceOfItsCamera) {
   }
 }
 
-TEST(LaunchedMarkers, AreDrawnIfRequested) {
+TEST_F(LaunchedMarkers, AreDrawnIfRequested) {
   Recorder<visualization_msgs::MarkerArray> markers("/launched_nodelet/trk_to_ros/markers");
   ASSERT_TRUE(eventually([&] { return !markers.messages.empty(); }));
   const auto& axis = markers.messages.front().markers.at(1);
@@ -64,7 +73,9 @@ INSTANTIATE_TEST_SUITE_P(As, Launched, ::testing::Values("launched_node", "launc
 
 class InManager : public CameraTest {
  protected:
-  explicit InManager(const std::string& node, std::string type) : CameraTest(node), type_(std::move(type)) {}
+  explicit InManager(const std::string& node, std::string type) : CameraTest(node), type_(std::move(type)) {
+    launched_nodes->start();
+  }
 
   bool load() {
     nodelet::NodeletLoad request;
@@ -149,5 +160,4 @@ TEST_F(RosToTrkInManager, SendsUntilItIsUnloaded) {
   ASSERT_TRUE(unload());
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::launched_test

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-// Every test program is a node with a separate ROS master.
+// Arguments: [FILE...]. Runs the tests of these source files, as a node with a separate ROS master.
 #include <cstdio>
 #include <cstdlib>
 
@@ -7,11 +7,13 @@
 #include <ros/ros.h>
 
 #include "program.h"
+#include "selected_files.h"
 #include "temporary_directory.h"
 #include "test_limit.h"
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleMock(&argc, argv);
+  if (!trk_bridge::test::select_files({argv + 1, argv + argc})) return 2;
   trk_bridge::test::limit_each_test();
   trk_bridge::test::Program master({PYTHON, "-B", MASTER});
   const auto uri = master.out_line();

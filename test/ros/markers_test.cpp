@@ -10,8 +10,7 @@
 
 #include "fixture.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::markers_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -167,5 +166,4 @@ TEST_F(Markers, OfALensThatIsTooWideAreNotDrawnAndTheReasonIsReported) {
   EXPECT_EQ(infos[name]->messages.size(), 2u) << "the lens is valid nevertheless";
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::markers_test

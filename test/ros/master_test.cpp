@@ -11,8 +11,7 @@
 #include "temporary_directory.h"
 #include "test_limit.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::master_test {
 
 using diagnostic_msgs::DiagnosticStatus;
 
@@ -97,11 +96,11 @@ TEST_F(Master, ARestartIsReportedByNodesAndNodeletsThatContinue) {
   EXPECT_THAT(output, ::testing::HasSubstr("the master does not know this node any more"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::master_test
 
 int main(int argc, char** argv) {
   using namespace trk_bridge::test;
+  using namespace trk_bridge::test::master_test;
   ::testing::InitGoogleMock(&argc, argv);
   limit_each_test();
   const TemporaryDirectory logs;

@@ -10,8 +10,7 @@
 
 #include "nodes/nodelet_name.h"
 
-namespace trk_bridge::nodes {
-namespace {
+namespace trk_bridge::nodes::nodelet_name_test {
 
 using std::chrono::milliseconds;
 
@@ -40,5 +39,4 @@ TEST(NodeletName, ANodeletThatNeverEndsIsAnError) {
   const NodeletName other("/crane2/trk_to_ros", milliseconds(0));
 }
 
-}  // namespace
-}  // namespace trk_bridge::nodes
+}  // namespace trk_bridge::nodes::nodelet_name_test

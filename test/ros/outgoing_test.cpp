@@ -17,8 +17,7 @@
 #include "trk_bridge/endpoints/endpoints.h"
 #include "whole_take.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::outgoing_test {
 
 using diagnostic_msgs::DiagnosticStatus;
 using ::testing::AllOf;
@@ -259,5 +258,4 @@ TEST_F(OnAFullDisk, AFailedSinkDoesNotAffectOthersAndRecovers) {
   EXPECT_LT(take.params.size(), counter);
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::outgoing_test

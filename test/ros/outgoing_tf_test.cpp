@@ -11,8 +11,7 @@
 #include "fixture.h"
 #include "receiver.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::outgoing_tf_test {
 
 using diagnostic_msgs::DiagnosticStatus;
 
@@ -230,5 +229,4 @@ TEST_F(FromTfInTime, AtTheRateOfTfEveryPoseIsSentOnArrival) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::outgoing_tf_test

@@ -31,8 +31,7 @@
 #include "udp.h"
 #include "whole_take.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::outputs_test {
 
 using diagnostic_msgs::DiagnosticStatus;
 using std::chrono::milliseconds;
@@ -365,5 +364,4 @@ TEST_F(NodeRecording, DoesNotBecomeAStandardDescriptorThatWasClosed) {
   EXPECT_EQ(file::read_take(folder / "take.trk").params.back().counter, sent);
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::outputs_test

@@ -14,8 +14,7 @@
 #include "vectors.h"
 #include "whole_take.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::recording_test {
 
 /// Whether `part` is contained in `whole` without a gap.
 ::testing::AssertionResult is_run_of(const std::vector<wire::CameraParams>& part,
@@ -99,5 +98,4 @@ TEST_F(Recording, PlayedBackAndInterruptedLeavesNoSimulatedTimeBehind) {
   EXPECT_FALSE(::ros::param::has("/use_sim_time"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::recording_test

@@ -15,8 +15,7 @@
 #include "same_camera.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::round_trip_test {
 
 /// The input of ros_to_trk is set by each test.
 class RoundTripOfNodes : public TrkToRosTest {
@@ -125,5 +124,4 @@ TEST_F(ThroughTf, EveryCaseIsTheSameCamera) {
   EXPECT_EQ(cases, 256u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::round_trip_test

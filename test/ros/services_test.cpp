@@ -14,8 +14,7 @@
 #include "receiver.h"
 #include "repeating.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::services_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -135,5 +134,4 @@ TEST_F(LiveOutput, WithoutATimerTheReasonIsGiven) {
   EXPECT_THAT(refusal_of(node_name + "/set_delay", 0.02), HasSubstr("start the node with pace"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::services_test

@@ -13,8 +13,7 @@
 #include "temporary_directory.h"
 #include "trk_bridge/endpoints/endpoints.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::several_cameras_test {
 
 class SeveralCameras : public TrkToRosTest {};
 
@@ -142,5 +141,4 @@ TEST_F(FaultyTake, EndsWithAnErrorAtAFaultyField) {
   EXPECT_TRUE(diagnostics.reports(status_name(), diagnostic_msgs::DiagnosticStatus::ERROR, "faulty.trk:4"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::several_cameras_test

@@ -11,8 +11,7 @@
 #include "camera_records.h"
 #include "fixture.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::source_reader_test {
 
 using testing::ElementsAre;
 
@@ -191,5 +190,4 @@ TEST_F(SourceReader, SubscribersInTheProcessGetMessagesByPointer) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::source_reader_test

@@ -3,8 +3,7 @@
 #include "free_slot.h"
 #include "node_process.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::startup_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -96,5 +95,4 @@ TEST_F(Startup, SigintEndsItPromptlyWhileItWaitsForASlot) {
   EXPECT_LT(interrupted(), std::chrono::seconds(3));
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::startup_test

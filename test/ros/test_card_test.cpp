@@ -32,8 +32,7 @@
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::test_card_test {
 
 constexpr double point_limit = 0.05;    // pixels between a point in the image and its place by CameraInfo and tf
 constexpr double straight_limit = 0.1;  // pixels between a rectified line and a straight one
@@ -474,5 +473,4 @@ TEST_F(TestCard, RefusesUnknownParameters) {
               ::testing::AllOf(::testing::HasSubstr("spacign"), ::testing::HasSubstr("spacing")));
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::test_card_test

@@ -13,8 +13,7 @@
 #include "trk_bridge/wire/format.h"
 #include "vectors.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::worked_cases_test {
 
 class WorkedCases : public TrkToRosTest, public ::testing::WithParamInterface<wire::Encoding> {
  protected:
@@ -138,5 +137,4 @@ TEST_P(WorkedCases, ArriveWithTheRightMeaning) {
 INSTANTIATE_TEST_SUITE_P(Encoded, WorkedCases, ::testing::Values(wire::Encoding::ascii, wire::Encoding::binary),
                          [](const auto& test) { return test.param == wire::Encoding::ascii ? "Ascii" : "Binary"; });
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::worked_cases_test

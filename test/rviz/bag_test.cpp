@@ -15,8 +15,7 @@
 #include "temporary_directory.h"
 #include "trk_bridge/ros/messages.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::bag_test {
 
 // Half of it is enough time to see a place on a machine that draws slowly.
 constexpr int rate = 50, seconds = 10;
@@ -80,5 +79,4 @@ TEST(Bag, IsDrawnInEveryLoop) {
   EXPECT_TRUE(window().draws()) << "time stands still";
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::bag_test

@@ -14,8 +14,7 @@
 #include "camera_display.h"
 #include "published_camera.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::conditions_test {
 
 constexpr auto ok = rviz::StatusProperty::Ok;
 constexpr auto warn = rviz::StatusProperty::Warn;
@@ -360,5 +359,4 @@ TEST_F(Conditions, SixteenCamerasAreAllDrawn) {
   window().picture().write(results_directory() + "/sixteen_cameras.png");
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::conditions_test

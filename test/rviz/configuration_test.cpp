@@ -8,8 +8,7 @@
 #include "published_camera.h"
 #include "temporary_directory.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::configuration_test {
 
 using Values = std::map<std::string, std::string>;
 
@@ -103,5 +102,4 @@ TEST_F(Configuration, ALoadedDisplayDraws) {
   EXPECT_TRUE(becomes(tracked)) << statuses(window().display("Camera"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::configuration_test

@@ -16,8 +16,7 @@
 #include "camera_display.h"
 #include "repeating.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::frustum_test {
 
 struct Pose {
   const char* name;
@@ -168,5 +167,4 @@ INSTANTIATE_TEST_SUITE_P(Of, Frustum, ::testing::Combine(::testing::ValuesIn(pos
                            return std::string(std::get<0>(test.param).name) + std::get<1>(test.param).name;
                          });
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::frustum_test

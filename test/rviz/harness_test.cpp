@@ -5,8 +5,7 @@
 
 #include "window.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::harness_test {
 
 const QColor magenta(255, 0, 255);
 
@@ -67,5 +66,4 @@ TEST_F(Harness, LinesOfRvizAreFoundWhereTheyAreAndNowhereElse) {
   EXPECT_TRUE(window().picture().pixels(magenta).empty());
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::harness_test

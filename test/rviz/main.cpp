@@ -7,13 +7,12 @@
 #include <ros/ros.h>
 #include <QApplication>
 
+#include "selected_files.h"
 #include "test_limit.h"
 #include "window.h"
 
 namespace trk_bridge::test {
 namespace {
-
-RvizWindow* the_window = nullptr;
 
 /// Saves what a failed test saw.
 class PicturesOfFailures : public ::testing::EmptyTestEventListener {
@@ -32,8 +31,6 @@ class PicturesOfFailures : public ::testing::EmptyTestEventListener {
 
 }  // namespace
 
-RvizWindow& window() { return *the_window; }
-
 std::string results_directory() {
   const std::string output = ::testing::GTEST_FLAG(output);
   const auto begin = output.find(':'), end = output.find_last_of('/');
@@ -42,19 +39,20 @@ std::string results_directory() {
 
 }  // namespace trk_bridge::test
 
-/// The first argument is the configuration that rviz starts with; rostest may add more arguments.
+/// Arguments: CONFIGURATION [FILE...]. Runs the tests of these source files in an rviz that starts with this
+/// configuration.
 int main(int argc, char** argv) {
   ::testing::InitGoogleMock(&argc, argv);
   trk_bridge::test::limit_each_test();
-  ::ros::init(argc, argv, "rviz_rostest");
+  ::ros::init(argc, argv, "rviz_window_tests");
   if (argc < 2) {
-    std::fprintf(stderr, "usage: %s CONFIGURATION\n", argv[0]);
+    std::fprintf(stderr, "usage: %s CONFIGURATION [FILE...]\n", argv[0]);
     return 2;
   }
+  if (!trk_bridge::test::select_files({argv + 2, argv + argc})) return 2;
   const std::string configuration = argv[1];
   QApplication application(argc, argv);
   trk_bridge::test::RvizWindow window(application, configuration);
-  trk_bridge::test::the_window = &window;
   ::testing::UnitTest::GetInstance()->listeners().Append(new trk_bridge::test::PicturesOfFailures);
   return RUN_ALL_TESTS();
 }

@@ -7,8 +7,7 @@
 #include "camera_display.h"
 #include "published_camera.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::package_configuration_test {
 
 TEST(PackageConfiguration, DrawsBothCameras) {
   const auto of_the_crane = plain_camera(-2, 20), returned = plain_camera(1, -10);
@@ -40,5 +39,4 @@ TEST(PackageConfiguration, DrawsBothCameras) {
   RvizWindow::screen().save(QString::fromStdString(results_directory() + "/configuration.png"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::package_configuration_test

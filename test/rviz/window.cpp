@@ -18,6 +18,8 @@
 namespace trk_bridge::test {
 namespace {
 
+RvizWindow* the_window = nullptr;
+
 rviz::VisualizationFrame* frame_of(const QApplication&) {
   for (QWidget* widget : QApplication::topLevelWidgets()) {
     if (auto* frame = qobject_cast<rviz::VisualizationFrame*>(widget)) return frame;
@@ -84,7 +86,10 @@ RvizWindow::RvizWindow(QApplication& application, const std::string& configurati
     throw std::runtime_error("rviz does not start");
   }
   frame_ = frame_of(application);
+  the_window = this;
 }
+
+RvizWindow& window() { return *the_window; }
 
 bool RvizWindow::eventually(const std::function<bool()>& condition, std::chrono::nanoseconds within) {
   const auto end = std::chrono::steady_clock::now() + within;

@@ -12,8 +12,7 @@
 #include "temporary_directory.h"
 #include "vectors.h"
 
-namespace trk_bridge::bag {
-namespace {
+namespace trk_bridge::bag::command_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -127,5 +126,4 @@ TEST_F(BagCommandTest, FilesThatCannotBeReadAreNamed) {
   EXPECT_THAT(err_text, HasSubstr("No such file"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::bag
+}  // namespace trk_bridge::bag::command_test

@@ -20,8 +20,7 @@
 #include "program.h"
 #include "trk_bridge/ros/messages.h"
 
-namespace trk_bridge::bag {
-namespace {
+namespace trk_bridge::bag::delay_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -220,5 +219,4 @@ TEST_F(DelayOfBag, WrongArgumentsAreRefused) {
   EXPECT_EQ(trk({directory / "missing.bag"}).second, 1);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bag
+}  // namespace trk_bridge::bag::delay_test

@@ -10,8 +10,7 @@
 #include "fixture.h"
 #include "trk_bridge/ros/messages.h"
 
-namespace trk_bridge::bag {
-namespace {
+namespace trk_bridge::bag::from_params_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -195,5 +194,4 @@ TEST_F(FromParams, ParamsCanBeConvertedToAnotherFormat) {
   EXPECT_NEAR(take.params[0].fov, 2 * std::atan(9.59 / 2 / 7.7) * 180 / M_PI, 1e-9);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bag
+}  // namespace trk_bridge::bag::from_params_test

@@ -14,8 +14,7 @@
 #include "trk_bridge/camera/camera.h"
 #include "trk_bridge/ros/frames.h"
 
-namespace trk_bridge::bag {
-namespace {
+namespace trk_bridge::bag::from_tf_test {
 
 using testing::HasSubstr;
 
@@ -266,5 +265,4 @@ INSTANTIATE_TEST_SUITE_P(FieldTakes, TakeThroughTf,
                                          "field/takes/matrix-studio_to_camera-camera_y_up-studio_y_up.trk"),
                          [](const auto& test) { return "Take" + std::to_string(test.index); });
 
-}  // namespace
-}  // namespace trk_bridge::bag
+}  // namespace trk_bridge::bag::from_tf_test

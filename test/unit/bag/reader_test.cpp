@@ -11,8 +11,7 @@
 #include "bag/reader.h"
 #include "fixture.h"
 
-namespace trk_bridge::bag {
-namespace {
+namespace trk_bridge::bag::reader_test {
 
 using testing::HasSubstr;
 
@@ -161,5 +160,4 @@ TEST_F(BagTest, MemoryDoesNotGrowWithTheTake) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::bag
+}  // namespace trk_bridge::bag::reader_test

@@ -14,8 +14,7 @@
 #include "trk_bridge/ros/messages.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::bag {
-namespace {
+namespace trk_bridge::bag::to_bag_test {
 
 using test::read_text;
 using test::write_text;
@@ -232,5 +231,4 @@ TEST_F(ToBag, WrongOptionsAreNamedAndLeaveNoFile) {
   EXPECT_THAT(refused(options), HasSubstr("1970 to 2106"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::bag
+}  // namespace trk_bridge::bag::to_bag_test

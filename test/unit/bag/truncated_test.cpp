@@ -13,8 +13,7 @@
 #include "fixture.h"
 #include "trk_bridge/ros/messages.h"
 
-namespace trk_bridge::bag {
-namespace {
+namespace trk_bridge::bag::truncated_test {
 
 using test::read_text;
 using test::write_text;
@@ -163,5 +162,4 @@ TEST_F(TruncatedBag, FilesThatAreNotBagsAreRefused) {
   EXPECT_THAT(refusal(directory / "none.bag"), HasSubstr("No such file"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::bag
+}  // namespace trk_bridge::bag::truncated_test

@@ -7,8 +7,7 @@
 #include "bag/writer.h"
 #include "fixture.h"
 
-namespace trk_bridge::bag {
-namespace {
+namespace trk_bridge::bag::writer_test {
 
 using test::read_text;
 
@@ -98,5 +97,4 @@ TEST_P(WriterTest, AnEmptyBagIsValid) {
 INSTANTIATE_TEST_SUITE_P(Compressions, WriterTest, testing::Values("none", "bz2", "lz4"),
                          [](const auto& test) { return test.param; });
 
-}  // namespace
-}  // namespace trk_bridge::bag
+}  // namespace trk_bridge::bag::writer_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trk_bridge::base {
-namespace {
+namespace trk_bridge::base::nearest_test {
 
 TEST(Nearest, IsTheSmallestEditDistance) {
   const std::vector<std::string> words{"delay", "source", "stamp", "format"};
@@ -33,5 +32,4 @@ TEST(Likely, IsTheNearestIfItIsSimilar) {
   EXPECT_EQ(likely("udp", {}), std::nullopt);
 }
 
-}  // namespace
-}  // namespace trk_bridge::base
+}  // namespace trk_bridge::base::nearest_test

@@ -12,8 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace trk_bridge::base {
-namespace {
+namespace trk_bridge::base::process_test {
 
 /// The exit code of a process that runs this, or minus the signal that ended it.
 int outcome(const std::function<int()>& act) {
@@ -98,5 +97,4 @@ TEST(StandardDescriptors, ClosedOnesAreOpenedOnDevNullAndOthersAreUnchanged) {
             0);
 }
 
-}  // namespace
-}  // namespace trk_bridge::base
+}  // namespace trk_bridge::base::process_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace trk_bridge::base {
-namespace {
+namespace trk_bridge::base::sequence_test {
 
 TEST(Sequence, FirstThenNext) {
   Sequence sequence;
@@ -308,5 +307,4 @@ TEST(Sequence, IgnoredCountersHaveNoEffect) {
   EXPECT_EQ(sequence.counts().lost + sequence.counts().duplicates + sequence.counts().restarts, 0u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::base
+}  // namespace trk_bridge::base::sequence_test

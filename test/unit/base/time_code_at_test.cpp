@@ -7,8 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace trk_bridge::base {
-namespace {
+namespace trk_bridge::base::time_code_at_test {
 
 using testing::HasSubstr;
 
@@ -62,5 +61,4 @@ TEST(TimeCodeAt, RefusesTimesWithoutCode) {
   EXPECT_EQ(code_at(500'000'000, 240), "00:00:00:60:1");
 }
 
-}  // namespace
-}  // namespace trk_bridge::base
+}  // namespace trk_bridge::base::time_code_at_test

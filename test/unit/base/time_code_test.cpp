@@ -8,8 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace trk_bridge::base {
-namespace {
+namespace trk_bridge::base::time_code_test {
 
 constexpr std::int64_t second = 1'000'000'000;
 
@@ -137,5 +136,4 @@ TEST(TimeCode, CodesThatDropFrameSkipsAreRefused) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::base
+}  // namespace trk_bridge::base::time_code_test

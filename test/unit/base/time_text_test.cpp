@@ -6,8 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace trk_bridge::base {
-namespace {
+namespace trk_bridge::base::time_text_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -70,5 +69,4 @@ TEST(TimeText, RoundTrips) {
   EXPECT_EQ(parse_moment(seconds_text(moment)), moment);
 }
 
-}  // namespace
-}  // namespace trk_bridge::base
+}  // namespace trk_bridge::base::time_text_test

@@ -14,8 +14,7 @@
 #include "bridge/params_to_trk.h"
 #include "bridge/tf_to_trk.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::allocation_test {
 
 using test::allocations_of;
 
@@ -209,5 +208,4 @@ TEST(Allocation, DoesNotHappenForSetsThatAreDelayed) {
   EXPECT_EQ(count, 0U);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::allocation_test

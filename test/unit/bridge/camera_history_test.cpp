@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::camera_history_test {
 
 constexpr std::int64_t ms = 1'000'000;
 constexpr std::int64_t start = 1'700'000'000'000 * ms;
@@ -137,5 +136,4 @@ TEST_F(CameraHistoryTest, AChangedLensWithAnOldTimeGetsTheTimeOfThePose) {
   EXPECT_EQ(history->at({at, at, at}, 0)->camera.lens.image_distance, 14);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::camera_history_test

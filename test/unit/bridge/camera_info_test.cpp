@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::camera_info_test {
 
 CameraInfo info_of(const std::string& model, std::vector<double> d) {
   CameraInfo info;
@@ -105,5 +104,4 @@ TEST(CameraInfo, EveryNumberOfTheLensCountsForTheCalibration) {
   expect_other([](CameraInfo& i) { i.distortion_model.clear(); });
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::camera_info_test

@@ -12,8 +12,7 @@
 #include "bridge/camera_pipeline.h"
 #include "pipeline_samples.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::camera_pipeline_senders_test {
 
 /// 250 fields at 50 Hz: `counter_of` returns a field's counter. Every field has a different pose, x. Returns the
 /// published ones, in their order.
@@ -207,5 +206,4 @@ TEST(Senders, WithoutFailoverEverySenderIsFollowed) {
   EXPECT_TRUE(pipeline.process(sample_from(1000, 2, 2), 2).pose);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::camera_pipeline_senders_test

@@ -9,8 +9,7 @@
 #include "bridge/camera_pipeline.h"
 #include "pipeline_samples.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::camera_pipeline_stamps_test {
 
 /// A sample of a tracker of 50 Hz whose arrivals jitter by 3 ms.
 transport::Sample jittering(std::uint64_t n) {
@@ -138,5 +137,4 @@ TEST(CameraPipeline, ATimeOutsideOfRosTimeIsDropped) {
   EXPECT_TRUE(pipeline.process(sample(params(2)), 0).pose);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::camera_pipeline_stamps_test

@@ -9,8 +9,7 @@
 #include "pipeline_samples.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::camera_pipeline_test {
 
 TEST(CameraPipeline, OneStampForEverythingOfASample) {
   CameraOptions options;
@@ -348,5 +347,4 @@ TEST(CameraPipeline, KeepsTheEncodingAndSenderOfTheLastNewRecord) {
   EXPECT_EQ(pipeline.statistics().sender.number, 50123u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::camera_pipeline_test

@@ -9,8 +9,7 @@
 #include "counter_signal.h"
 #include "trk_bridge/base/sequence.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::counter_clock_test {
 
 constexpr double second = 1e9, millisecond = 1e6;  // ns
 constexpr double jitter = 2 * millisecond;         // standard deviation
@@ -431,5 +430,4 @@ TEST(StandardRates, AreNamedWithin300Ppm) {
   EXPECT_EQ(standard_rate(75), nullptr);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::counter_clock_test

@@ -14,8 +14,7 @@
 #include "camera_records.h"
 #include "deadline.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::departures_test {
 
 using testing::ElementsAre;
 
@@ -211,5 +210,4 @@ TEST(Departures, TooManyIdsAreALoss) {
   EXPECT_TRUE(test::becomes_true([&] { return inbox.all().size() == OutletWriter::most_ids; }));
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::departures_test

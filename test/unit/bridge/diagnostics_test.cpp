@@ -5,8 +5,7 @@
 
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::diagnostics_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -354,5 +353,4 @@ TEST_F(Diagnostics, NoMarkersSaysWhy) {
   expect(Level::warn, "no markers: " + camera::describe(camera::CameraReason::too_wide));
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::diagnostics_test

@@ -7,8 +7,7 @@
 
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::outgoing_diagnostics_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -356,5 +355,4 @@ TEST_F(SinkDiagnostics, ARecordingThatCouldNotKeepUpStaysAnError) {
   expect(status(), Level::error, "9 records are missing");
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::outgoing_diagnostics_test

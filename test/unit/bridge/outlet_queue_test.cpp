@@ -12,8 +12,7 @@
 #include "bridge/outlet_writer.h"
 #include "udp.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::outlet_queue_test {
 
 using test::constants;
 using test::params;
@@ -160,5 +159,4 @@ TEST(OutletQueue, ClosingWakesAWaitingPop) {
   EXPECT_FALSE(popped.get());
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::outlet_queue_test

@@ -19,8 +19,7 @@
 #include "trk_bridge/endpoints/endpoints.h"
 #include "udp.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::outlet_test {
 
 using test::constants;
 using test::endpoint_of;
@@ -429,5 +428,4 @@ TEST(Outlet, OptionsThatTheEndpointDoesNotSetHaveDefaults) {
   EXPECT_EQ(outlet.name(), "control");
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::outlet_test

@@ -12,8 +12,7 @@
 #include "deadline.h"
 #include "temporary_directory.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::outlet_unload_test {
 
 TEST(OutletUnload, AnAbandonedSinkContinuesWhenItsLibraryIsUnloaded) {
   constexpr int capacity = 4096, records = capacity + 500;
@@ -40,5 +39,4 @@ TEST(OutletUnload, AnAbandonedSinkContinuesWhenItsLibraryIsUnloaded) {
   EXPECT_EQ(received, records);
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::outlet_unload_test

@@ -13,8 +13,7 @@
 #include "trk_bridge/wire/format.h"
 #include "udp.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::outlet_writer_test {
 
 using camera::CameraReason;
 using test::constants;
@@ -251,5 +250,4 @@ TEST_F(OutletWriterTest, InvalidCamerasAreDroppedFromTheFeedOfOneCamera) {
   EXPECT_THAT(control.records(), ElementsAre(doubled));
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::outlet_writer_test

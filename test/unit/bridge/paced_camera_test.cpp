@@ -11,8 +11,7 @@
 #include "trk_bridge/camera/camera.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::paced_camera_test {
 
 constexpr std::int64_t ms = 1'000'000;
 constexpr std::int64_t second = 1'000 * ms;
@@ -383,5 +382,4 @@ TEST(PacedCamera, InvalidCamerasAreRefusedWithoutAffectingOthers) {
   EXPECT_GT(sent.size(), 40u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::paced_camera_test

@@ -5,8 +5,7 @@
 
 #include "udp.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::params_to_trk_test {
 
 using test::constants;
 using test::params;
@@ -74,5 +73,4 @@ TEST(ParamsToTrk, InvalidConstantsAreIgnored) {
   EXPECT_EQ(input.statistics().bad_constants, 2u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::params_to_trk_test

@@ -9,8 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::phase_lock_test {
 
 constexpr double ms = 1e6;
 constexpr std::int64_t start = 5'000'000'000'000;
@@ -166,5 +165,4 @@ TEST(PhaseLock, AfterAPauseItStartsAgain) {
   EXPECT_LT(largest(done.ages(15.3e9)), 1 * ms);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::phase_lock_test

@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::ros_report_test {
 
 using ::testing::HasSubstr;
 
@@ -56,5 +55,4 @@ TEST_F(RosDiagnostics, SimulatedTimeThatStandsStill) {
   expect(Level::ok, "ROS time is /clock");
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::ros_report_test

@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::stamper_test {
 
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
@@ -92,5 +91,4 @@ TEST(Stamper, UnorderedIsArrivalMinusDelayWhateverCameBefore) {
   EXPECT_EQ(stamper.held(), 0u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::stamper_test

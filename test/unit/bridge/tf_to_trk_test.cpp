@@ -8,8 +8,7 @@
 
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::tf_to_trk_test {
 
 constexpr std::int64_t second = 1'000'000'000;
 constexpr std::int64_t start = 1'700'000'000 * second;
@@ -296,5 +295,4 @@ TEST(TfToTrk, NoModelWithoutCoefficientsIsAccepted) {
   EXPECT_TRUE(converter.make(pose(), field(0), 0));
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::tf_to_trk_test

@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::bridge {
-namespace {
+namespace trk_bridge::bridge::transform_filter_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -120,5 +119,4 @@ TEST_F(TransformFilterTest, RosTimeThatGoesBackRestartsAtOnce) {
   EXPECT_EQ(describe(filter.statistics().last_restart), "ROS time went back by 100.0 s");
 }
 
-}  // namespace
-}  // namespace trk_bridge::bridge
+}  // namespace trk_bridge::bridge::transform_filter_test

@@ -9,7 +9,7 @@
 #include "temporary_directory.h"
 #include "trk_file.h"
 
-namespace {
+namespace trk_bridge::c_api::file_test {
 
 using trk_bridge::test::constants_in_c;
 using trk_bridge::test::no_handles;
@@ -104,4 +104,4 @@ TEST_F(File, misuse_gives_the_documents_codes) {
   }
 }
 
-}  // namespace
+}  // namespace trk_bridge::c_api::file_test

@@ -23,7 +23,7 @@
 #include "trk_mem.h"
 #include "trk_net.h"
 
-namespace {
+namespace trk_bridge::c_api::memory_test {
 
 using trk_bridge::test::becomes_true;
 using trk_bridge::test::constants_in_c;
@@ -302,4 +302,4 @@ TEST_F(Memory, a_signal_handler_that_ends_the_program_within_a_call_removes_the_
   EXPECT_EQ(slot.segment(), -1);
 }
 
-}  // namespace
+}  // namespace trk_bridge::c_api::memory_test

@@ -13,7 +13,7 @@
 #include "trk_net.h"
 #include "udp.h"
 
-namespace {
+namespace trk_bridge::c_api::network_test {
 
 using trk_bridge::test::constants_in_c;
 using trk_bridge::test::no_handles;
@@ -268,4 +268,4 @@ TEST(NetLayout, an_invalid_environment_is_a_failure) {
 
 INSTANTIATE_TEST_SUITE_P(Encodings, Net, ::testing::Values(0, 1));
 
-}  // namespace
+}  // namespace trk_bridge::c_api::network_test

@@ -16,8 +16,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trk_bridge::c_api {
-namespace {
+namespace trk_bridge::c_api::params_ring_test {
 
 /// One datagram. A sender that restarts begins a new run.
 struct Set {
@@ -212,5 +211,4 @@ TEST(ParamsRing, a_counter_that_stands_still_gives_every_record) {
   EXPECT_EQ(given, 100);
 }
 
-}  // namespace
-}  // namespace trk_bridge::c_api
+}  // namespace trk_bridge::c_api::params_ring_test

@@ -7,8 +7,7 @@
 #include "reserved_port.h"
 #include "temporary_directory.h"
 
-namespace trk_bridge::test {
-namespace {
+namespace trk_bridge::test::programs_test {
 
 const std::string programs = std::string(USERS) + "/c_api_test_";
 
@@ -35,5 +34,4 @@ TEST(Users, only_read_hides_what_writes) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::test
+}  // namespace trk_bridge::test::programs_test

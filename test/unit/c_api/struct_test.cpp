@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace trk_bridge::c_api::struct_test {
 
 // On i386, doubles in structures are aligned to 4 bytes, and unsigned long has 4.
 constexpr bool is_i386 = sizeof(void*) == 4 && alignof(trkCameraParams) == 4;
@@ -152,4 +152,4 @@ TEST(Struct, formats_are_words) {
   EXPECT_TRUE(format & trkShiftInPixels) << "unchanged";
 }
 
-}  // namespace
+}  // namespace trk_bridge::c_api::struct_test

@@ -9,8 +9,7 @@
 #include "trk_bridge/camera/converter.h"
 #include "trk_bridge/camera/image.h"
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::allocation_test {
 
 using test::allocations_of;
 
@@ -60,5 +59,4 @@ TEST(Allocation, DoesNotHappenForBorders) {
   EXPECT_TRUE(good);
 }
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::allocation_test

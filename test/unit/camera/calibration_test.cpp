@@ -8,8 +8,7 @@
 
 #include "trk_bridge/camera/image.h"
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::calibration_test {
 
 using ::testing::Each;
 using ::testing::ElementsAre;
@@ -375,5 +374,4 @@ TEST(FitLens, RefusesInvalidCameraInfo) {
   EXPECT_EQ(reason(good, {}, {}), CameraReason::bad_constants);
 }
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::calibration_test

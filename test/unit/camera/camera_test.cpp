@@ -9,8 +9,7 @@
 
 #include "random_cameras.h"
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::camera_test {
 
 using ::testing::DoubleNear;
 using wire::CameraConstants;
@@ -358,5 +357,4 @@ TEST(Reasons, AllHaveDistinctTexts) {
   EXPECT_EQ(words.count("unknown reason"), 0U);
 }
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::camera_test

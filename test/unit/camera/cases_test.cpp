@@ -9,8 +9,7 @@
 #include "trk_bridge/wire/format.h"
 #include "worked_cases.h"
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::cases_test {
 
 constexpr double tolerance = 1e-9;
 
@@ -120,5 +119,4 @@ TEST_F(WorkedCases, HaveTheExpectedCameraMatrix) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::cases_test

@@ -10,8 +10,7 @@
 #include "random_cameras.h"
 #include "worked_cases.h"
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::converter_test {
 
 using wire::CameraConstants;
 using wire::CameraParams;
@@ -75,6 +74,7 @@ void expect_kept_but(const Change& change) {
 
 TEST(Converter, ConvertsOnlyWhatItsOptionsAffect) {
   using namespace wire;
+  using wire::field_of_view;
   const std::uint32_t fake_pixels = ignore_blank | shift_in_pixels;
   const Change changes[] = {
       {"nothing", euler, euler, false, false, false},
@@ -363,5 +363,4 @@ TEST(Converter, RoundTripsTheWorkedCases) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::converter_test

@@ -13,8 +13,7 @@
 #include "trk_bridge/camera/calibration.h"
 #include "worked_cases.h"
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::figure_test {
 
 constexpr std::size_t edge = border_points_an_edge;
 constexpr double degrees = 180 / M_PI;
@@ -402,5 +401,4 @@ TEST(ViewingLens, ComparesAllNumbers) {
   EXPECT_NE(lens, other);
 }
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::figure_test

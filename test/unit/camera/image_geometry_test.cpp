@@ -6,8 +6,7 @@
 #include "trk_bridge/camera/calibration.h"
 #include "worked_cases.h"
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::image_geometry_test {
 
 constexpr double tolerance = 0.02;
 
@@ -45,5 +44,4 @@ TEST(PinholeCameraModel, PutsThePointsOfTheWorkedCasesWhereTheCameraSeesThem) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::image_geometry_test

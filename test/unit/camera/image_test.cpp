@@ -8,8 +8,7 @@
 
 #include "random_cameras.h"
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::image_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -134,5 +133,4 @@ TEST(Distortion, SurvivesAnyNumbers) {
   EXPECT_EQ(nowhere.error(), CameraReason::not_finite);
 }
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::image_test

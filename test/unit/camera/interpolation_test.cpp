@@ -7,8 +7,7 @@
 
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::interpolation_test {
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
@@ -111,5 +110,4 @@ TEST(Interpolation, InvalidCamerasAreRefused) {
   EXPECT_EQ(decode_relative(bad).error(), CameraReason::not_finite);
 }
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::interpolation_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::least_squares_test {
 
 TEST(LeastSquares, FindsTheLineThroughPoints) {
   Terms terms(4, 2);
@@ -50,5 +49,4 @@ TEST(LeastSquares, EndsWithoutNumbers) {
   EXPECT_EQ(least_squares(terms, Values::Ones(3)).size(), 2);
 }
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::least_squares_test

@@ -8,8 +8,7 @@
 #include "trk_bridge/camera/image.h"
 #include "worked_cases.h"
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::opencv_test {
 
 constexpr double tolerance = 0.02;
 
@@ -66,5 +65,4 @@ TEST(OpenCv, MatchesTheFullImageWithinTheResidual) {
   EXPECT_LE(worst, calibration->distortion.residual + 1e-6);
 }
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::opencv_test

@@ -8,8 +8,7 @@
 #include "trk_bridge/wire/codec.h"
 #include "vectors.h"
 
-namespace trk_bridge::camera {
-namespace {
+namespace trk_bridge::camera::takes_test {
 
 struct Take {
   wire::CameraConstants constants;
@@ -77,5 +76,4 @@ INSTANTIATE_TEST_SUITE_P(Field, Takes,
                          ::testing::Values("euler-ignore_blank-keep_aspect-field_of_view-vertical",
                                            "matrix-studio_to_camera-camera_y_up-studio_y_up"));
 
-}  // namespace
-}  // namespace trk_bridge::camera
+}  // namespace trk_bridge::camera::takes_test

@@ -9,8 +9,7 @@
 
 #include "cli/stop_signals.h"
 
-namespace trk_bridge::cli {
-namespace {
+namespace trk_bridge::cli::long_run_test {
 
 TEST(LongRunTest, AShortRunPrintsNothing) {
   for (const bool is_terminal : {false, true}) {
@@ -45,5 +44,4 @@ TEST(LongRunTest, ASignalEndsIt) {
   EXPECT_THROW(run.at(0.5), Interrupted);
 }
 
-}  // namespace
-}  // namespace trk_bridge::cli
+}  // namespace trk_bridge::cli::long_run_test

@@ -7,8 +7,7 @@
 #include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
 
-namespace trk_bridge::delay {
-namespace {
+namespace trk_bridge::delay::picture_motion_test {
 
 /// A part of a large picture, so that new content appears at its edge.
 cv::Mat part(double x, double y, cv::Size size) {
@@ -60,5 +59,4 @@ TEST(PictureMotion, IsNoneWithoutDetail) {
   EXPECT_TRUE(motion.next(part(0, 0, {640, 360})).empty()) << "another size";
 }
 
-}  // namespace
-}  // namespace trk_bridge::delay
+}  // namespace trk_bridge::delay::picture_motion_test

@@ -7,8 +7,7 @@
 #include <gmock/gmock.h>
 #include <rapidjson/document.h>
 
-namespace trk_bridge::delay {
-namespace {
+namespace trk_bridge::delay::report_test {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -80,5 +79,4 @@ TEST(Report, IsJson) {
   EXPECT_FALSE(json.HasMember("delay"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::delay
+}  // namespace trk_bridge::delay::report_test

@@ -11,8 +11,7 @@
 #include "delay/plot.h"
 #include "delay/report.h"
 
-namespace trk_bridge::delay {
-namespace {
+namespace trk_bridge::delay::test_card_test {
 
 using test::quick_pans;
 using test::quick_pans_end;
@@ -192,5 +191,4 @@ TEST(Clocks, ThatDifferAreReported) {
   EXPECT_EQ(meter.measure().cannot_tell, CannotTell::other_time);
 }
 
-}  // namespace
-}  // namespace trk_bridge::delay
+}  // namespace trk_bridge::delay::test_card_test

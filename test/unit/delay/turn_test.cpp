@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::delay {
-namespace {
+namespace trk_bridge::delay::turn_test {
 
 constexpr double degree = M_PI / 180;
 
@@ -98,5 +97,4 @@ TEST(TurnOf, IsNoneIfPointsDoNotAgree) {
   EXPECT_FALSE(turn_of({}, lens(), raster()));
 }
 
-}  // namespace
-}  // namespace trk_bridge::delay
+}  // namespace trk_bridge::delay::turn_test

@@ -14,8 +14,7 @@
 #include "trk_bridge/camera/calibration.h"
 #include "trk_bridge/camera/image.h"
 
-namespace trk_bridge::demo {
-namespace {
+namespace trk_bridge::demo::crane_motion_test {
 
 constexpr double field = 0.02;  // s
 const int fields = static_cast<int>(shot_duration / field);
@@ -193,5 +192,4 @@ TEST(CraneMotion, TheLensGoesFromBarrelToCushionAndNeverFoldsThePicture) {
   EXPECT_LT(least_k1, 0) << "cushion when long";
 }
 
-}  // namespace
-}  // namespace trk_bridge::demo
+}  // namespace trk_bridge::demo::crane_motion_test

@@ -8,8 +8,7 @@
 
 #include "picture_measure.h"
 
-namespace trk_bridge::demo {
-namespace {
+namespace trk_bridge::demo::test_card_canvas_test {
 
 constexpr std::uint8_t ground = 30, bright = 255;
 
@@ -105,5 +104,4 @@ TEST_F(TestCardCanvas, LabelsAvoidDrawnParts) {
   EXPECT_EQ(cv::countNonZero(full != cv::Mat(240, 320, CV_8UC1, cv::Scalar(bright))), 0);
 }
 
-}  // namespace
-}  // namespace trk_bridge::demo
+}  // namespace trk_bridge::demo::test_card_canvas_test

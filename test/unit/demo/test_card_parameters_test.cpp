@@ -6,8 +6,7 @@
 
 #include "ros/parameter_reader.h"
 
-namespace trk_bridge::demo {
-namespace {
+namespace trk_bridge::demo::test_card_parameters_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -96,5 +95,4 @@ TEST(TestCardParameters, FramesMustBeValid) {
   EXPECT_THAT(refusal(tree), HasSubstr("must differ from studio_frame"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::demo
+}  // namespace trk_bridge::demo::test_card_parameters_test

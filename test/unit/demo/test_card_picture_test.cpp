@@ -15,8 +15,7 @@
 #include "trk_bridge/camera/calibration.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::demo {
-namespace {
+namespace trk_bridge::demo::test_card_picture_test {
 
 using test::deviation_from_straight;
 using test::disc_center;
@@ -241,5 +240,4 @@ TEST_P(TestCardThroughLens, ChordsFollowTheCurve) {
 INSTANTIATE_TEST_SUITE_P(Sights, TestCardThroughLens, ::testing::ValuesIn(sights),
                          [](const auto& test) { return std::string(test.param.name); });
 
-}  // namespace
-}  // namespace trk_bridge::demo
+}  // namespace trk_bridge::demo::test_card_picture_test

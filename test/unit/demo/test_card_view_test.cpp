@@ -11,8 +11,7 @@
 #include "../camera/random_cameras.h"
 #include "demo/test_card_picture.h"
 
-namespace trk_bridge::demo {
-namespace {
+namespace trk_bridge::demo::test_card_view_test {
 
 wire::CameraConstants hd() {
   wire::CameraConstants constants;
@@ -160,5 +159,4 @@ TEST(TestCardFigure, WallOrFloorMayBeOmitted) {
   EXPECT_EQ(figure_at(place).points.size(), 13u) << "one line that goes into the studio";
 }
 
-}  // namespace
-}  // namespace trk_bridge::demo
+}  // namespace trk_bridge::demo::test_card_view_test

@@ -8,8 +8,7 @@
 #include "trk_bridge/wire/format.h"
 #include "url_errors.h"
 
-namespace trk_bridge::endpoints {
-namespace {
+namespace trk_bridge::endpoints::endpoints_test {
 
 using test::read_error;
 using test::write_error;
@@ -217,5 +216,4 @@ TEST(Endpoints, EqualPlacesAreThoseThatOnlyOneSourceCanRead) {
   EXPECT_EQ(parse_source("shm:7")->url, "shm:7");
 }
 
-}  // namespace
-}  // namespace trk_bridge::endpoints
+}  // namespace trk_bridge::endpoints::endpoints_test

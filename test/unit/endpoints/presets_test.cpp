@@ -11,8 +11,7 @@
 
 #include "trk_bridge/endpoints/endpoints.h"
 
-namespace trk_bridge::endpoints {
-namespace {
+namespace trk_bridge::endpoints::presets_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -145,5 +144,4 @@ TEST(PresetsFromYaml, EntriesThatAreNotMapsAreRefused) {
   EXPECT_THAT(error_of(""), HasSubstr("must be a map of presets"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::endpoints
+}  // namespace trk_bridge::endpoints::presets_test

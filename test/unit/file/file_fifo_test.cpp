@@ -17,8 +17,7 @@
 #include "play_file.h"
 #include "trk_bridge/transport/source.h"
 
-namespace trk_bridge::file {
-namespace {
+namespace trk_bridge::file::file_fifo_test {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
@@ -124,5 +123,4 @@ TEST_F(PlayFifo, AFaultIsAnErrorThatNamesTheLine) {
   EXPECT_THROW(static_cast<void>(open_source(settings, 50.0)), TransportError);
 }
 
-}  // namespace
-}  // namespace trk_bridge::file
+}  // namespace trk_bridge::file::file_fifo_test

@@ -6,8 +6,7 @@
 
 #include "url_errors.h"
 
-namespace trk_bridge::file {
-namespace {
+namespace trk_bridge::file::file_settings_test {
 
 using test::read_error;
 using test::write_error;
@@ -100,5 +99,4 @@ TEST(FileSettings, TheTimeInNamesOfRecordings) {
   EXPECT_THAT(read_error("file:%Y"), HasSubstr("hexadecimal"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::file
+}  // namespace trk_bridge::file::file_settings_test

@@ -21,8 +21,7 @@
 #include "udp.h"
 #include "whole_take.h"
 
-namespace trk_bridge::file {
-namespace {
+namespace trk_bridge::file::file_sink_test {
 
 using namespace std::chrono_literals;
 using endpoints::open_sink;
@@ -252,5 +251,4 @@ TEST_F(FileSinkTest, AFifoWaitsForItsReader) {
   EXPECT_THAT(files(), ElementsAre("fifo"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::file
+}  // namespace trk_bridge::file::file_sink_test

@@ -20,8 +20,7 @@
 #include "trk_bridge/transport/source.h"
 #include "vectors.h"
 
-namespace trk_bridge::file {
-namespace {
+namespace trk_bridge::file::file_source_test {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
@@ -377,5 +376,4 @@ TEST_F(PlayFile, ASinkWithAWrongTimeCodeIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(path + ".part"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::file
+}  // namespace trk_bridge::file::file_source_test

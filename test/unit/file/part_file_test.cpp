@@ -15,8 +15,7 @@
 
 #include "temporary_directory.h"
 
-namespace trk_bridge::file {
-namespace {
+namespace trk_bridge::file::part_file_test {
 
 using std::filesystem::exists;
 using test::read_text;
@@ -207,5 +206,4 @@ TEST_F(RecoverPart, NamesWithoutAnEndingAndInDirectoriesWithADot) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::file
+}  // namespace trk_bridge::file::part_file_test

@@ -20,8 +20,7 @@
 #include "vectors.h"
 #include "whole_take.h"
 
-namespace trk_bridge::file {
-namespace {
+namespace trk_bridge::file::take_file_test {
 
 using test::data_path;
 using test::TemporaryDirectory;
@@ -229,5 +228,4 @@ TEST_F(ReadTake, ATakeWithoutFieldsIsValid) {
   EXPECT_TRUE(read_take(path).params.empty());
 }
 
-}  // namespace
-}  // namespace trk_bridge::file
+}  // namespace trk_bridge::file::take_file_test

@@ -23,8 +23,7 @@
 #include "vectors.h"
 #include "whole_take.h"
 
-namespace trk_bridge::file {
-namespace {
+namespace trk_bridge::file::take_writer_test {
 
 using std::filesystem::exists;
 using test::read_text;
@@ -322,5 +321,4 @@ TEST_F(WriteTake, AnUnwritablePathIsNamed) {
   EXPECT_THROW(TakeWriter("", code, true), TransportError);
 }
 
-}  // namespace
-}  // namespace trk_bridge::file
+}  // namespace trk_bridge::file::take_writer_test

@@ -5,8 +5,7 @@
 #include "freed/encoder.h"
 #include "freed_messages.h"
 
-namespace trk_bridge::freed {
-namespace {
+namespace trk_bridge::freed::allocation_test {
 
 TEST(Allocation, NoneForMessages) {
   const auto table = test::table_of(
@@ -37,5 +36,4 @@ TEST(Allocation, NoneForMessages) {
   EXPECT_EQ(during, 0u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::freed
+}  // namespace trk_bridge::freed::allocation_test

@@ -9,8 +9,7 @@
 #include "trk_bridge/camera/camera.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::freed {
-namespace {
+namespace trk_bridge::freed::decoder_test {
 
 using test::message_of;
 using test::table_of;
@@ -231,5 +230,4 @@ TEST(FreeDDecoder, BeyondTheTableThereIsNoLens) {
   EXPECT_DOUBLE_EQ(std::get<wire::CameraParams>(at_the_stop.record).fov, 16);
 }
 
-}  // namespace
-}  // namespace trk_bridge::freed
+}  // namespace trk_bridge::freed::decoder_test

@@ -12,8 +12,7 @@
 #include "freed_messages.h"
 #include "trk_bridge/camera/camera.h"
 
-namespace trk_bridge::freed {
-namespace {
+namespace trk_bridge::freed::encoder_test {
 
 using test::bytes;
 using test::table_of;
@@ -217,5 +216,4 @@ TEST(FreeDEncoder, PosesRoundTrip) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::freed
+}  // namespace trk_bridge::freed::encoder_test

@@ -7,8 +7,7 @@
 #include "exact_copy.h"
 #include "freed_messages.h"
 
-namespace trk_bridge::freed {
-namespace {
+namespace trk_bridge::freed::mutation_test {
 
 TEST(FreeDMutation, TenThousandDamagedDatagrams) {
   const auto table = test::table_of("points: [{zoom: 0, focal_length: 8}, {zoom: 16000000, focal_length: 80}]");
@@ -37,5 +36,4 @@ TEST(FreeDMutation, TenThousandDamagedDatagrams) {
   EXPECT_GT(lenient_only, 5000) << "most damage is found by the checksum alone";
 }
 
-}  // namespace
-}  // namespace trk_bridge::freed
+}  // namespace trk_bridge::freed::mutation_test

@@ -10,8 +10,7 @@
 #include "udp.h"
 #include "url_errors.h"
 
-namespace trk_bridge::freed {
-namespace {
+namespace trk_bridge::freed::stream_test {
 
 using endpoints::open_sink;
 using endpoints::open_source;
@@ -98,5 +97,4 @@ TEST(FreeDStream, DoubtfulRecordsAreCounted) {
   EXPECT_STREQ(statistics.last_doubt, "wrong checksum");
 }
 
-}  // namespace
-}  // namespace trk_bridge::freed
+}  // namespace trk_bridge::freed::stream_test

@@ -7,8 +7,7 @@
 
 #include "trk_bridge/camera/camera.h"
 
-namespace trk_bridge::lens {
-namespace {
+namespace trk_bridge::lens::table_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -233,5 +232,4 @@ TEST(LensTable, ALensThatFoldsTheImageIsRefused) {
       StartsWith("lens.yaml:3: k1, k2 fold the image within its 5.50"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::lens
+}  // namespace trk_bridge::lens::table_test

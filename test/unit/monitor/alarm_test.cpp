@@ -6,8 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace trk_bridge::monitor {
-namespace {
+namespace trk_bridge::monitor::alarm_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -82,5 +81,4 @@ TEST(Alarm, ErrorsNameThePartAndWhatIsAllowed) {
   EXPECT_THAT(parse_alarm("drops>2%").error(), HasSubstr("allowed is none"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::monitor
+}  // namespace trk_bridge::monitor::alarm_test

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trk_bridge::monitor {
-namespace {
+namespace trk_bridge::monitor::arrival_window_test {
 
 constexpr std::int64_t ms = 1'000'000;
 
@@ -88,5 +87,4 @@ TEST(ArrivalWindow, RestartsWhenTheClockIsSetBack) {
   EXPECT_EQ(window.jitter().value().worst, 0);
 }
 
-}  // namespace
-}  // namespace trk_bridge::monitor
+}  // namespace trk_bridge::monitor::arrival_window_test

@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace trk_bridge::monitor {
-namespace {
+namespace trk_bridge::monitor::axis_check_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -71,5 +70,4 @@ TEST(AxisCheck, WithoutAPoseItSaysSo) {
   EXPECT_EQ(check.lines()[1], "pan left: pan +6.00 deg: right");
 }
 
-}  // namespace
-}  // namespace trk_bridge::monitor
+}  // namespace trk_bridge::monitor::axis_check_test

@@ -6,8 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace trk_bridge::monitor {
-namespace {
+namespace trk_bridge::monitor::chart_test {
 
 using testing::Each;
 using testing::ElementsAre;
@@ -90,5 +89,4 @@ TEST(History, KeepsAMinuteAndIsClearedWhenTimeGoesBack) {
   EXPECT_TRUE(history.columns(Value::pan, 70'000 * ms, 70'000 * ms, 70)[20].is_empty());
 }
 
-}  // namespace
-}  // namespace trk_bridge::monitor
+}  // namespace trk_bridge::monitor::chart_test

@@ -20,8 +20,7 @@
 #include "trk_bridge/endpoints/endpoints.h"
 #include "udp.h"
 
-namespace trk_bridge::monitor {
-namespace {
+namespace trk_bridge::monitor::findings_test {
 
 using bridge::Condition;
 using std::chrono::nanoseconds;
@@ -341,5 +340,4 @@ TEST(Findings, LossIsThatOfTheLastSeconds) {
   EXPECT_DOUBLE_EQ(state.cameras.front().loss.value(), 0);
 }
 
-}  // namespace
-}  // namespace trk_bridge::monitor
+}  // namespace trk_bridge::monitor::findings_test

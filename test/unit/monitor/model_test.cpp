@@ -10,8 +10,7 @@
 #include "trk_bridge/wire/format.h"
 #include "udp.h"
 
-namespace trk_bridge::monitor {
-namespace {
+namespace trk_bridge::monitor::model_test {
 
 using std::chrono::milliseconds;
 
@@ -208,5 +207,4 @@ TEST_F(ModelTest, CamerasBeyondTheLimitAreOnlyCounted) {
   EXPECT_EQ(s.not_shown, 4U);
 }
 
-}  // namespace
-}  // namespace trk_bridge::monitor
+}  // namespace trk_bridge::monitor::model_test

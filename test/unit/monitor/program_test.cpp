@@ -24,8 +24,7 @@
 #include "udp.h"
 #include "vt100.h"
 
-namespace trk_bridge::monitor {
-namespace {
+namespace trk_bridge::monitor::program_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -442,5 +441,4 @@ TEST(TrkMonitor, AFullDiskIsAnError) {
   EXPECT_EQ(monitor.wait(), 1);
 }
 
-}  // namespace
-}  // namespace trk_bridge::monitor
+}  // namespace trk_bridge::monitor::program_test

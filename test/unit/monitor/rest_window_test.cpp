@@ -7,8 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trk_bridge::monitor {
-namespace {
+namespace trk_bridge::monitor::rest_window_test {
 
 constexpr std::int64_t field = 20'000'000;  // ns, 50 Hz
 
@@ -83,5 +82,4 @@ TEST(RestWindow, RestartsWhenTheClockIsSetBack) {
   EXPECT_EQ(window.classify().motion, Motion::unknown);
 }
 
-}  // namespace
-}  // namespace trk_bridge::monitor
+}  // namespace trk_bridge::monitor::rest_window_test

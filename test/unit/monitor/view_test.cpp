@@ -11,8 +11,7 @@
 #include "trk_bridge/wire/format.h"
 #include "udp.h"
 
-namespace trk_bridge::monitor {
-namespace {
+namespace trk_bridge::monitor::view_test {
 
 using testing::AllOf;
 using testing::AnyOf;
@@ -362,5 +361,4 @@ TEST(View, PlainLinesShowEachNewMalformedRecordOnce) {
               ElementsAre("! id 1: no constants received", HasSubstr("field 9 is not a number"), StartsWith("id 1  ")));
 }
 
-}  // namespace
-}  // namespace trk_bridge::monitor
+}  // namespace trk_bridge::monitor::view_test

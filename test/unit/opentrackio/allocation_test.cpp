@@ -6,8 +6,7 @@
 #include "allocations.h"
 #include "packets.h"
 
-namespace trk_bridge::opentrackio {
-namespace {
+namespace trk_bridge::opentrackio::allocation_test {
 
 /// Allocations of a decoder for a datagram of a known sender; the samples and faults are counted in `given`.
 std::uint64_t allocations_for(PacketDecoder& decoder, const std::string& datagram, int& given) {
@@ -55,5 +54,4 @@ TEST(Allocation, OfASample) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::opentrackio
+}  // namespace trk_bridge::opentrackio::allocation_test

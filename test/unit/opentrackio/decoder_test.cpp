@@ -14,8 +14,7 @@
 #include "exact_copy.h"
 #include "packets.h"
 
-namespace trk_bridge::opentrackio {
-namespace {
+namespace trk_bridge::opentrackio::decoder_test {
 
 using test::full_sample;
 using test::given;
@@ -443,5 +442,4 @@ TEST(OpenTrackIoDecoder, ReferenceSamples) {
   EXPECT_EQ(count, 4);
 }
 
-}  // namespace
-}  // namespace trk_bridge::opentrackio
+}  // namespace trk_bridge::opentrackio::decoder_test

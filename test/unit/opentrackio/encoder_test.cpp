@@ -13,8 +13,7 @@
 #include "same_camera.h"
 #include "trk_bridge/wire/fields.h"
 
-namespace trk_bridge::opentrackio {
-namespace {
+namespace trk_bridge::opentrackio::encoder_test {
 
 using test::datagrams_of;
 using test::given;
@@ -373,5 +372,4 @@ TEST(OpenTrackIoEncoder, ThePixelsOfTheWorkedCasesByUnrealsReader) {
   EXPECT_GT(worst_generic, 1.0) << "the profile is of no use";
 }
 
-}  // namespace
-}  // namespace trk_bridge::opentrackio
+}  // namespace trk_bridge::opentrackio::encoder_test

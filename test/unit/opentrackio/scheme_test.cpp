@@ -12,8 +12,7 @@
 #include "udp.h"
 #include "url_errors.h"
 
-namespace trk_bridge::opentrackio {
-namespace {
+namespace trk_bridge::opentrackio::scheme_test {
 
 using endpoints::open_sink;
 using endpoints::open_source;
@@ -146,5 +145,4 @@ TEST(OpenTrackIo, BothGroupsAreReceivedAndAMessageOfBothIsCountedOnce) {
   EXPECT_EQ(source->receive(reception, std::chrono::nanoseconds(-1)), transport::Event::stopped);
 }
 
-}  // namespace
-}  // namespace trk_bridge::opentrackio
+}  // namespace trk_bridge::opentrackio::scheme_test

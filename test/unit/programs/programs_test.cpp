@@ -18,8 +18,7 @@
 #include "vectors.h"
 #include "whole_take.h"
 
-namespace trk_bridge::programs {
-namespace {
+namespace trk_bridge::programs::programs_test {
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -236,5 +235,4 @@ TEST(Usage, bad_arguments_are_named) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::programs
+}  // namespace trk_bridge::programs::programs_test

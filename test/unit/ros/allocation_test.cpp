@@ -13,8 +13,7 @@
 #include "trk_bridge/wire/format.h"
 #include "udp.h"
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::allocation_test {
 
 constexpr int fields = 200;
 
@@ -115,5 +114,4 @@ TEST(SystemCalls, OneFromAMessageToADatagram) {
   EXPECT_LE(test::total(*calls), fields + 5);
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::allocation_test

@@ -4,8 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::camera_info_test {
 
 sensor_msgs::CameraInfo some_message() {
   sensor_msgs::CameraInfo message;
@@ -45,5 +44,4 @@ TEST(CameraInfoMessage, ReplacesTheOneBefore) {
   EXPECT_TRUE(bridge::same_calibration(info, from_msg(other)));
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::camera_info_test

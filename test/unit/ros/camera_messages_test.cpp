@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::camera_messages_test {
 
 constexpr std::int64_t today = 1'700'000'000'123'456'789;
 
@@ -74,5 +73,4 @@ TEST(CameraMessages, ConstantsOfUnknownTimeHaveStampZero) {
   EXPECT_TRUE(messages.constants()->header.stamp.isZero());
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::camera_messages_test

@@ -7,8 +7,7 @@
 #include "error_of.h"
 #include "ros/parameter_reader.h"
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::delay_meter_parameters_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -44,5 +43,4 @@ TEST(DelayMeterParameters, EveryFaultIsShown) {
                     HasSubstr("nearest is field_rate")));
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::delay_meter_parameters_test

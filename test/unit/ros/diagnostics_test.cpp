@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::diagnostics_test {
 
 using bridge::Level;
 using diagnostic_msgs::DiagnosticStatus;
@@ -40,5 +39,4 @@ TEST(Diagnostics, TextsAndValuesInOrder) {
   EXPECT_EQ(message.values[1].value, "euler");
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::diagnostics_test

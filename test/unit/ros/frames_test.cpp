@@ -9,8 +9,7 @@
 #include "trk_bridge/wire/format.h"
 #include "vectors.h"
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::frames_test {
 
 /// A vector turned by a quaternion, written out: independent of Eigen's rotation code.
 std::array<double, 3> turned(const geometry_msgs::Quaternion& q, std::array<double, 3> v) {
@@ -87,5 +86,4 @@ TEST(Frames, OpticalTransformIsTheStaticOneOfTf) {
   EXPECT_NEAR(transform.transform.rotation.w, std::sqrt(0.5), 1e-15);
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::frames_test

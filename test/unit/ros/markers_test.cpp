@@ -7,8 +7,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::markers_test {
 
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
@@ -162,5 +161,4 @@ TEST_F(Markers, ThatWereRemovedAreAllAddedAgain) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::markers_test

@@ -7,8 +7,7 @@
 #include <set>
 #include <vector>
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::message_pool_test {
 
 using Params = trk_bridge::CameraParams;
 using Pool = MessagePool<Params>;
@@ -51,5 +50,4 @@ TEST(MessagePool, TheCurrentOneIsThatOfTheLastRenewal) {
   EXPECT_EQ(pool.current().get(), &message);
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::message_pool_test

@@ -6,8 +6,7 @@
 #include "trk_bridge/wire/format.h"
 #include "vectors.h"
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::messages_test {
 
 wire::CameraParams numbered(std::uint32_t format) {
   wire::CameraParams p;
@@ -103,5 +102,4 @@ TEST(Messages, TimesToTheNanosecondFrom1970To2106) {
   EXPECT_TRUE(to_time(4'294'967'296'000'000'000).isZero());
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::messages_test

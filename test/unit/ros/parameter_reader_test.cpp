@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::parameter_reader_test {
 
 using ::testing::ElementsAre;
 using XmlRpc::XmlRpcValue;
@@ -206,5 +205,4 @@ TEST(ParameterReader, IdsOf32Bits) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::parameter_reader_test

@@ -10,8 +10,7 @@
 #include "trk_bridge/ros/frames.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::ros_to_trk_parameters_test {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -294,5 +293,4 @@ TEST(ReadOutgoing, APresetOfASchemeIsOnlyForItsSinks) {
   EXPECT_EQ(message_of(tree), "no error") << "it has its own";
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::ros_to_trk_parameters_test

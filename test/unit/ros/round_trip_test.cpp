@@ -16,8 +16,7 @@
 #include "trk_bridge/ros/messages.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::round_trip_test {
 
 constexpr std::int64_t today = 1'700'000'000'000'000'000;
 
@@ -200,5 +199,4 @@ TEST(RoundTrip, RandomCamerasThroughTfAndCameraInfo) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::round_trip_test

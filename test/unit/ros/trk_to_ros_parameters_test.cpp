@@ -9,8 +9,7 @@
 #include "error_of.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::ros1 {
-namespace {
+namespace trk_bridge::ros1::trk_to_ros_parameters_test {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -365,5 +364,4 @@ TEST(Read, WithoutParametersTheSourceIsMissing) {
 
 TEST(Read, ATreeThatIsNotAMapIsRefused) { EXPECT_THAT(message_of(XmlRpcValue(7)), HasSubstr("must be a map")); }
 
-}  // namespace
-}  // namespace trk_bridge::ros1
+}  // namespace trk_bridge::ros1::trk_to_ros_parameters_test

@@ -7,8 +7,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::rviz_display {
-namespace {
+namespace trk_bridge::rviz_display::camera_status_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -142,5 +141,4 @@ TEST_F(CameraStatusTest, AgeWarnsWhenTheCameraIsNotLive) {
   EXPECT_THAT(line("Age"), HasSubstr("Warn: 2.00 s"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::rviz_display
+}  // namespace trk_bridge::rviz_display::camera_status_test

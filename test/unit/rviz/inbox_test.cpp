@@ -8,8 +8,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <boost/make_shared.hpp>
 
-namespace trk_bridge::rviz_display {
-namespace {
+namespace trk_bridge::rviz_display::inbox_test {
 
 using sensor_msgs::CameraInfo;
 
@@ -56,5 +55,4 @@ TEST(Inbox, LosesNothingBetweenThreads) {
   EXPECT_EQ(inbox.collect().count, 0u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::rviz_display
+}  // namespace trk_bridge::rviz_display::inbox_test

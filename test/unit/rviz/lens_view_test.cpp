@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::rviz_display {
-namespace {
+namespace trk_bridge::rviz_display::lens_view_test {
 
 using testing::HasSubstr;
 
@@ -85,5 +84,4 @@ TEST(LensView, OfAnUnknownModelIsReported) {
   EXPECT_EQ(view.fault(), "");
 }
 
-}  // namespace
-}  // namespace trk_bridge::rviz_display
+}  // namespace trk_bridge::rviz_display::lens_view_test

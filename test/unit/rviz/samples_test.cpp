@@ -8,8 +8,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <boost/make_shared.hpp>
 
-namespace trk_bridge::rviz_display {
-namespace {
+namespace trk_bridge::rviz_display::samples_test {
 
 using sensor_msgs::CameraInfo;
 using InfoSamples = Samples<CameraInfo>;
@@ -128,5 +127,4 @@ TEST(Samples, BelongingToIsTheSameStampElseTheNewestBeforeElseTheFirstAfter) {
   EXPECT_EQ(stamp_of(samples.belonging_to(ros::Time())), 10.4);
 }
 
-}  // namespace
-}  // namespace trk_bridge::rviz_display
+}  // namespace trk_bridge::rviz_display::samples_test

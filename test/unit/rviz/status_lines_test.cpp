@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::rviz_display {
-namespace {
+namespace trk_bridge::rviz_display::status_lines_test {
 
 using testing::ElementsAre;
 
@@ -55,5 +54,4 @@ TEST_F(StatusLinesTest, RemovedOnesAreShownAgain) {
   EXPECT_THAT(shown, ElementsAre("Lens0 good", "no Lens", "Lens0 good", "Lens0 good"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::rviz_display
+}  // namespace trk_bridge::rviz_display::status_lines_test

@@ -4,8 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::rviz_display {
-namespace {
+namespace trk_bridge::rviz_display::texts_test {
 
 using testing::HasSubstr;
 
@@ -72,5 +71,4 @@ TEST(Silence, NamesTopicAndStart) {
             "no messages on /a/camera_info for 9.8 s, since 990.250");
 }
 
-}  // namespace
-}  // namespace trk_bridge::rviz_display
+}  // namespace trk_bridge::rviz_display::texts_test

@@ -7,8 +7,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::rviz_display {
-namespace {
+namespace trk_bridge::rviz_display::trail_test {
 
 Eigen::Vector3d along(double x) { return {x, 0, 0}; }
 
@@ -84,5 +83,4 @@ TEST(Trail, MovesToAnotherFixedFrameWhereItIsKnown) {
   EXPECT_EQ(trail.points().back().position, Eigen::Vector3d(0, 13, 0));
 }
 
-}  // namespace
-}  // namespace trk_bridge::rviz_display
+}  // namespace trk_bridge::rviz_display::trail_test

@@ -12,8 +12,7 @@
 
 #include "shm/cadence.h"
 
-namespace trk_bridge::shm {
-namespace {
+namespace trk_bridge::shm::cadence_test {
 
 constexpr double us = 1e3, ms = 1e6, s = 1e9;
 
@@ -217,5 +216,4 @@ TEST(Cadence, sets_without_any_rhythm_cost_no_more) {
   EXPECT_LE(met.replaced, 300);
 }
 
-}  // namespace
-}  // namespace trk_bridge::shm
+}  // namespace trk_bridge::shm::cadence_test

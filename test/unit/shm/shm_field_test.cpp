@@ -26,8 +26,7 @@
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::shm {
-namespace {
+namespace trk_bridge::shm::shm_field_test {
 
 using namespace std::chrono_literals;
 using endpoints::open_sink;
@@ -390,5 +389,4 @@ TEST_F(Field, a_slot_does_not_get_the_segment_of_another_whose_file_was_deleted)
   EXPECT_EQ(source->statistics().records, 0U) << "a record was received";
 }
 
-}  // namespace
-}  // namespace trk_bridge::shm
+}  // namespace trk_bridge::shm::shm_field_test

@@ -16,8 +16,7 @@
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 
-namespace trk_bridge::shm {
-namespace {
+namespace trk_bridge::shm::shm_foreign_test {
 
 using namespace std::chrono_literals;
 using endpoints::open_sink;
@@ -165,5 +164,4 @@ TEST(ShmFaults, key_zero_is_explained) {
               HasSubstr("slot 7: /tmp/dmc_tracking_buffer.7 has the key 0"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::shm
+}  // namespace trk_bridge::shm::shm_foreign_test

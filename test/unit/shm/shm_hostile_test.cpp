@@ -21,8 +21,7 @@
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 
-namespace trk_bridge::shm {
-namespace {
+namespace trk_bridge::shm::shm_hostile_test {
 
 using namespace std::chrono_literals;
 using endpoints::open_sink;
@@ -175,5 +174,4 @@ TEST_F(Hostile, a_segment_without_permission_is_named) {
   EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
-}  // namespace
-}  // namespace trk_bridge::shm
+}  // namespace trk_bridge::shm::shm_hostile_test

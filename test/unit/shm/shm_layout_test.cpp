@@ -10,8 +10,7 @@
 #include "shm/segment.h"
 #include "vectors.h"
 
-namespace trk_bridge::shm {
-namespace {
+namespace trk_bridge::shm::shm_layout_test {
 
 struct FieldSegment {
   std::string directory;
@@ -168,5 +167,4 @@ TEST(ShmSlotPath, one_character_a_slot) {
   EXPECT_EQ(slot_path(61), "/tmp/dmc_tracking_buffer.z");
 }
 
-}  // namespace
-}  // namespace trk_bridge::shm
+}  // namespace trk_bridge::shm::shm_layout_test

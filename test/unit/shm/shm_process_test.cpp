@@ -20,8 +20,7 @@
 #include "trk_bridge/transport/source.h"
 #include "trk_bridge/wire/format.h"
 
-namespace trk_bridge::shm {
-namespace {
+namespace trk_bridge::shm::shm_process_test {
 
 using endpoints::open_sink;
 using endpoints::open_source;
@@ -270,5 +269,4 @@ TEST(ShmProcesses, a_forked_copy_of_a_handle_does_not_count_down) {
   EXPECT_EQ(slot.segment(), segment->id());
 }
 
-}  // namespace
-}  // namespace trk_bridge::shm
+}  // namespace trk_bridge::shm::shm_process_test

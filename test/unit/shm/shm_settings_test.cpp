@@ -6,8 +6,7 @@
 
 #include "url_errors.h"
 
-namespace trk_bridge::shm {
-namespace {
+namespace trk_bridge::shm::shm_settings_test {
 
 using test::read_error;
 using testing::AllOf;
@@ -40,5 +39,4 @@ TEST(ShmSettings, SharedMemory) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::shm
+}  // namespace trk_bridge::shm::shm_settings_test

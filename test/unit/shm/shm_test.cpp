@@ -17,8 +17,7 @@
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 
-namespace trk_bridge::shm {
-namespace {
+namespace trk_bridge::shm::shm_test {
 
 using endpoints::open_sink;
 using endpoints::open_source;
@@ -329,5 +328,4 @@ TEST(ShmSettings, layouts_without_a_segment_are_refused) {
   EXPECT_THROW(open_sink("shm:3?layout=identified_lp64_be"), TransportError);
 }
 
-}  // namespace
-}  // namespace trk_bridge::shm
+}  // namespace trk_bridge::shm::shm_test

@@ -7,8 +7,7 @@
 
 #include "shm/segment.h"
 
-namespace trk_bridge::shm {
-namespace {
+namespace trk_bridge::shm::shm_texts_test {
 
 SlotFault fault(SlotProblem problem, std::size_t size = 0, std::uint64_t magic = 0, int other = 0, int error = 0) {
   return {problem, 7, size, magic, other, error};
@@ -38,5 +37,4 @@ TEST(ShmTexts, FaultsOfASlot) {
   EXPECT_EQ(describe(fault(SlotProblem::system, 0, 0, 0, ENOSPC)), "slot 7: No space left on device");
 }
 
-}  // namespace
-}  // namespace trk_bridge::shm
+}  // namespace trk_bridge::shm::shm_texts_test

@@ -30,8 +30,7 @@
 #include "trk_bridge/transport/sink.h"
 #include "trk_bridge/transport/source.h"
 
-namespace trk_bridge::shm {
-namespace {
+namespace trk_bridge::shm::shm_wake_test {
 
 using endpoints::open_sink;
 using endpoints::open_source;
@@ -251,5 +250,4 @@ TEST_F(ShmWake, if_the_system_cannot_wait_for_two_things_the_reader_polls) {
   EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
-}  // namespace
-}  // namespace trk_bridge::shm
+}  // namespace trk_bridge::shm::shm_wake_test

@@ -21,8 +21,7 @@
 #include "trk_bridge/wire/codec.h"
 #include "udp.h"
 
-namespace trk_bridge::tools {
-namespace {
+namespace trk_bridge::tools::detect_test {
 
 using test::Program;
 using testing::AllOf;
@@ -201,5 +200,4 @@ TEST(Detect, ListsTheUsualPlaces) {
                           HasSubstr("239.135.1.1 to 239.135.1.200"), HasSubstr("235.135.1.1 to 235.135.1.200")));
 }
 
-}  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::tools::detect_test

@@ -9,8 +9,7 @@
 #include "camera_records.h"
 #include "memory_feed.h"
 
-namespace trk_bridge::tools {
-namespace {
+namespace trk_bridge::tools::detected_test {
 
 using testing::Contains;
 using testing::ElementsAre;
@@ -118,5 +117,4 @@ TEST(Detected, MissingConstantsAndSeveralCamerasAreNamed) {
   EXPECT_THAT(doubts_of(one), ElementsAre(HasSubstr("only checksum=lenient accepts"), HasSubstr("allow=ADDRESS")));
 }
 
-}  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::tools::detected_test

@@ -13,8 +13,7 @@
 #include "trk_bridge/endpoints/endpoints.h"
 #include "udp.h"
 
-namespace trk_bridge::tools {
-namespace {
+namespace trk_bridge::tools::dump_test {
 
 using testing::HasSubstr;
 
@@ -118,5 +117,4 @@ TEST_F(DumpTest, AnOutputErrorEndsIt) {
   EXPECT_THAT(err.str(), HasSubstr("received 1 "));
 }
 
-}  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::tools::dump_test

@@ -12,8 +12,7 @@
 #include "udp.h"
 #include "whole_take.h"
 
-namespace trk_bridge::tools {
-namespace {
+namespace trk_bridge::tools::freed_program_test {
 
 using test::Program;
 using testing::AllOf;
@@ -123,5 +122,4 @@ TEST(TrkLens, ChecksAndPlots) {
   EXPECT_EQ(refused.wait(), 1);
 }
 
-}  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::tools::freed_program_test

@@ -14,8 +14,7 @@
 #include "temporary_directory.h"
 #include "vectors.h"
 
-namespace trk_bridge::tools {
-namespace {
+namespace trk_bridge::tools::help_program_test {
 
 using test::Program;
 using testing::AllOf;
@@ -145,5 +144,4 @@ TEST(TrkCompletion, OfZshCompletesWhatIsTyped) {
       << result.err;
 }
 
-}  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::tools::help_program_test

@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::tools {
-namespace {
+namespace trk_bridge::tools::lens_table_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -64,5 +63,4 @@ TEST(LensPlot, DrawsEveryPointAndCurve) {
   EXPECT_THAT(flat, Not(HasSubstr("focus distance")));
 }
 
-}  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::tools::lens_table_test

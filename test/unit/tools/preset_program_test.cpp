@@ -12,8 +12,7 @@
 #include "trk_bridge/wire/codec.h"
 #include "udp.h"
 
-namespace trk_bridge::tools {
-namespace {
+namespace trk_bridge::tools::preset_program_test {
 
 using test::Program;
 using testing::HasSubstr;
@@ -124,5 +123,4 @@ TEST(TrkRelay, AnIdForAReceiverWithoutIdsIsRefused) {
       HasSubstr("endpoint \"udp://127.0.0.1:10?id=3\": id 3 with a preset that sends no id; only 0 is allowed"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::tools::preset_program_test

@@ -12,8 +12,7 @@
 #include "trk_bridge/wire/format.h"
 #include "vectors.h"
 
-namespace trk_bridge::tools {
-namespace {
+namespace trk_bridge::tools::record_text_test {
 
 using testing::HasSubstr;
 
@@ -139,5 +138,4 @@ TEST(PlainLine, NamesTheUnitsOfTheFormat) {
   EXPECT_THAT(plain_line(sample_of(params)), HasSubstr("image distance 42 mm center 0.25 0 mm"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::tools::record_text_test

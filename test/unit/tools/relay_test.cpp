@@ -27,8 +27,7 @@
 #include "vectors.h"
 #include "whole_take.h"
 
-namespace trk_bridge::tools {
-namespace {
+namespace trk_bridge::tools::relay_test {
 
 using testing::HasSubstr;
 using transport::Event;
@@ -435,5 +434,4 @@ TEST_F(RelayTest, MalformedRecordsAreReportedOncePerReason) {
   EXPECT_THAT(text, HasSubstr("malformed 6"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::tools::relay_test

@@ -13,8 +13,7 @@
 #include "vectors.h"
 #include "whole_take.h"
 
-namespace trk_bridge {
-namespace {
+namespace trk_bridge::takes_test {
 
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
@@ -96,5 +95,4 @@ TEST(Takes, AMalformedLineIsAnErrorThatNamesItAnywhere) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge
+}  // namespace trk_bridge::takes_test

@@ -22,8 +22,7 @@
 #include "vectors.h"
 #include "whole_take.h"
 
-namespace trk_bridge::tools {
-namespace {
+namespace trk_bridge::tools::trk_program_test {
 
 using test::Program;
 using testing::HasSubstr;
@@ -279,5 +278,4 @@ TEST(TrkRelay, WrongArgumentsEndItBeforeAnythingIsOpened) {
   EXPECT_THAT(text, HasSubstr("trk: error: " + (directory / "absent.trk") + ": cannot be read: No such file"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::tools
+}  // namespace trk_bridge::tools::trk_program_test

@@ -9,8 +9,7 @@
 #include "memory_feed.h"
 #include "udp.h"
 
-namespace trk_bridge::transport {
-namespace {
+namespace trk_bridge::transport::counted_source_test {
 
 using testing::HasSubstr;
 
@@ -144,5 +143,4 @@ TEST(CountedSource, AsAReaderOfASourceSeesIt) {
   EXPECT_THAT(source->statistics().error, HasSubstr("memory: "));
 }
 
-}  // namespace
-}  // namespace trk_bridge::transport
+}  // namespace trk_bridge::transport::counted_source_test

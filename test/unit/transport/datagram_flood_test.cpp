@@ -45,8 +45,7 @@ extern "C" __attribute__((visibility("default"))) int recvmmsg(int fd, mmsghdr* 
   return static_cast<int>(count);
 }
 
-namespace trk_bridge::transport {
-namespace {
+namespace trk_bridge::transport::datagram_flood_test {
 
 /// Has nothing to decode.
 class Silent final : public Decoder {
@@ -103,5 +102,4 @@ TEST_P(DatagramFloodTest, ZeroWaitEndsReceive) {
 
 INSTANTIATE_TEST_SUITE_P(Allowed, DatagramFloodTest, testing::Values("127.0.0.5", "127.0.0.6"));
 
-}  // namespace
-}  // namespace trk_bridge::transport
+}  // namespace trk_bridge::transport::datagram_flood_test

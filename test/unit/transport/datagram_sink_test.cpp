@@ -12,8 +12,7 @@
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
 
-namespace trk_bridge::transport {
-namespace {
+namespace trk_bridge::transport::datagram_sink_test {
 
 using test::PlainSocket;
 
@@ -197,5 +196,4 @@ TEST_F(DatagramSinkTest, APeriodOutOfRangeIsRefused) {
   for (const double period : {-1.0, 86'401.0}) EXPECT_THROW((void)open(period), TransportError) << period;
 }
 
-}  // namespace
-}  // namespace trk_bridge::transport
+}  // namespace trk_bridge::transport::datagram_sink_test

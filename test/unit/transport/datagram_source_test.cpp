@@ -10,8 +10,7 @@
 
 #include "udp.h"
 
-namespace trk_bridge::transport {
-namespace {
+namespace trk_bridge::transport::datagram_source_test {
 
 using test::next;
 using test::next_counter;
@@ -158,5 +157,4 @@ TEST_F(DatagramSourceTest, AsManySamplesAsADatagramHolds) {
   EXPECT_EQ(next_counter(*source), 1u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::transport
+}  // namespace trk_bridge::transport::datagram_source_test

@@ -8,8 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trk_bridge::transport {
-namespace {
+namespace trk_bridge::transport::fault_test {
 
 static_assert(std::is_trivially_copyable_v<Fault>, "faults are handed over by value and counted in snapshots");
 
@@ -76,5 +75,4 @@ TEST(Fault, NoFaultIsDescribedAsNone) {
   EXPECT_EQ(none, Fault());
 }
 
-}  // namespace
-}  // namespace trk_bridge::transport
+}  // namespace trk_bridge::transport::fault_test

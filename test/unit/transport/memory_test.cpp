@@ -9,8 +9,7 @@
 #include "trk_bridge/transport/sink.h"
 #include "udp.h"
 
-namespace trk_bridge::transport {
-namespace {
+namespace trk_bridge::transport::memory_test {
 
 using test::next;
 using test::next_counter;
@@ -125,5 +124,4 @@ TEST(Memory, ManyWritersManyRecords) {
   for (auto& writer : writers) writer.join();
 }
 
-}  // namespace
-}  // namespace trk_bridge::transport
+}  // namespace trk_bridge::transport::memory_test

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace trk_bridge::transport {
-namespace {
+namespace trk_bridge::transport::origin_test {
 
 using wire::Abi;
 using wire::ByteOrder;
@@ -48,5 +47,4 @@ TEST(Origin, EveryLayoutHasItsOwnStaticText) {
   EXPECT_EQ(texts.size(), 24u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::transport
+}  // namespace trk_bridge::transport::origin_test

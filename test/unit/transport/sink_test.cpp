@@ -10,8 +10,7 @@
 
 #include "udp.h"
 
-namespace trk_bridge::transport {
-namespace {
+namespace trk_bridge::transport::sink_test {
 
 using testing::HasSubstr;
 
@@ -135,5 +134,4 @@ TEST(SinkFault, IsCountedByReasonFaultAndErrorNumber) {
   EXPECT_EQ(describe(encode), "the record cannot be written: field 5 is not finite");
 }
 
-}  // namespace
-}  // namespace trk_bridge::transport
+}  // namespace trk_bridge::transport::sink_test

@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace trk_bridge::transport {
-namespace {
+namespace trk_bridge::transport::url_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -61,5 +60,4 @@ TEST(Url, AnIpv6AddressIsInBrackets) {
   EXPECT_EQ(udp_url("", 7000), "udp://:7000");
 }
 
-}  // namespace
-}  // namespace trk_bridge::transport
+}  // namespace trk_bridge::transport::url_test

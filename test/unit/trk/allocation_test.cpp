@@ -11,8 +11,7 @@
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
 
-namespace trk_bridge::trk {
-namespace {
+namespace trk_bridge::trk::allocation_test {
 
 using endpoints::open_sink;
 using endpoints::open_source;
@@ -48,5 +47,4 @@ void expect_no_allocation(const std::string& options) {
 TEST(Allocation, NoneForAsciiRecords) { expect_no_allocation(""); }
 TEST(Allocation, NoneForBinaryRecords) { expect_no_allocation("&binary=1"); }
 
-}  // namespace
-}  // namespace trk_bridge::trk
+}  // namespace trk_bridge::trk::allocation_test

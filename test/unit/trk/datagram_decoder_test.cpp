@@ -6,8 +6,7 @@
 
 #include "udp.h"
 
-namespace trk_bridge::trk {
-namespace {
+namespace trk_bridge::trk::datagram_decoder_test {
 
 using testing::StartsWith;
 using transport::Fault;
@@ -118,5 +117,4 @@ TEST(DatagramDecoder, InvalidDataReplaceNoSender) {
   EXPECT_EQ(origin_of(decoder, ambiguous(), sender(0)), "binary document_lp64");
 }
 
-}  // namespace
-}  // namespace trk_bridge::trk
+}  // namespace trk_bridge::trk::datagram_decoder_test

@@ -13,8 +13,7 @@
 #include "trk_bridge/wire/format.h"
 #include "vectors.h"
 
-namespace trk_bridge::trk {
-namespace {
+namespace trk_bridge::trk::trackmen_test {
 
 using testing::HasSubstr;
 
@@ -116,5 +115,4 @@ TEST(TrackMen, DamagedPacketsAreFaultsOrFinite) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::trk
+}  // namespace trk_bridge::trk::trackmen_test

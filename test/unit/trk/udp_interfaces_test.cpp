@@ -7,8 +7,7 @@
 
 #include "two_machines.h"
 
-namespace trk_bridge::trk {
-namespace {
+namespace trk_bridge::trk::udp_interfaces_test {
 
 /// A second cable, from w0 to w1, without addresses.
 void plug_in_another(const Network& n) {
@@ -68,5 +67,4 @@ TEST_F(NetworkTest, ManyInterfacesThatAppearAndDisappearLoseNoRecord) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::trk
+}  // namespace trk_bridge::trk::udp_interfaces_test

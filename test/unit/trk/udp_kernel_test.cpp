@@ -17,8 +17,7 @@
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
 
-namespace trk_bridge::trk {
-namespace {
+namespace trk_bridge::trk::udp_kernel_test {
 
 using endpoints::open_source;
 using test::PlainSocket;
@@ -152,5 +151,4 @@ TEST(UdpSourceAndKernel, OneSystemCallPerSample) {
   EXPECT_LE(waited_for->at(SYS_recvmmsg), 100);
 }
 
-}  // namespace
-}  // namespace trk_bridge::trk
+}  // namespace trk_bridge::trk::udp_kernel_test

@@ -10,8 +10,7 @@
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
 
-namespace trk_bridge::trk {
-namespace {
+namespace trk_bridge::trk::udp_multicast_test {
 
 using endpoints::open_sink;
 using endpoints::open_source;
@@ -93,5 +92,4 @@ TEST(UdpMulticast, Ipv6GroupOfThisMachine) {
   EXPECT_EQ(test::next_counter(*other), 6u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::trk
+}  // namespace trk_bridge::trk::udp_multicast_test

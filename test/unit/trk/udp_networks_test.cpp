@@ -11,8 +11,7 @@
 
 #include "two_machines.h"
 
-namespace trk_bridge::trk {
-namespace {
+namespace trk_bridge::trk::udp_networks_test {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
@@ -288,5 +287,4 @@ TEST_F(NetworkTest, AReaderThatWaitsInTheKernelIsStoppedWhateverInterfacesDo) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::trk
+}  // namespace trk_bridge::trk::udp_networks_test

@@ -6,8 +6,7 @@
 
 #include "url_errors.h"
 
-namespace trk_bridge::trk {
-namespace {
+namespace trk_bridge::trk::udp_settings_test {
 
 using test::read_error;
 using test::write_error;
@@ -107,5 +106,4 @@ TEST(UdpSettings, ALayoutWithoutBinaryIsRefused) {
   EXPECT_THAT(write_error("udp://h:1?layout=identified&binary=0"), HasSubstr("binary=1"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::trk
+}  // namespace trk_bridge::trk::udp_settings_test

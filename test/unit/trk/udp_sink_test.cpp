@@ -12,8 +12,7 @@
 #include "error_of.h"
 #include "udp.h"
 
-namespace trk_bridge::trk {
-namespace {
+namespace trk_bridge::trk::udp_sink_test {
 
 using endpoints::open_sink;
 using endpoints::open_source;
@@ -228,5 +227,4 @@ TEST(UdpSink, AMissingInterfaceIsAFaultOfEachWrite) {
   EXPECT_EQ(sink->statistics().errors, 1u);
 }
 
-}  // namespace
-}  // namespace trk_bridge::trk
+}  // namespace trk_bridge::trk::udp_sink_test

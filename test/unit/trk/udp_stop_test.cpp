@@ -17,8 +17,7 @@
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
 
-namespace trk_bridge::trk {
-namespace {
+namespace trk_bridge::trk::udp_stop_test {
 
 using endpoints::open_sink;
 using endpoints::open_source;
@@ -141,5 +140,4 @@ TEST(UdpProcesses, ATrackerInAnotherProcess) {
   EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
-}  // namespace
-}  // namespace trk_bridge::trk
+}  // namespace trk_bridge::trk::udp_stop_test

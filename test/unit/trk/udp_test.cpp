@@ -15,8 +15,7 @@
 #include "trk_bridge/transport/source.h"
 #include "udp.h"
 
-namespace trk_bridge::trk {
-namespace {
+namespace trk_bridge::trk::udp_test {
 
 using endpoints::open_source;
 using test::next;
@@ -345,5 +344,4 @@ TEST(UdpSource, StatisticsWhileReceiving) {
   tracker.join();
 }
 
-}  // namespace
-}  // namespace trk_bridge::trk
+}  // namespace trk_bridge::trk::udp_test

@@ -9,8 +9,7 @@
 #include "records.h"
 #include "trk_bridge/wire/codec.h"
 
-namespace trk_bridge::wire {
-namespace {
+namespace trk_bridge::wire::allocation_test {
 
 std::vector<std::string> samples() {
   test::RandomRecords random(1);
@@ -58,5 +57,4 @@ TEST(Allocation, NoneWhileReadingAndWriting) {
   EXPECT_EQ(refused, bad.size());
 }
 
-}  // namespace
-}  // namespace trk_bridge::wire
+}  // namespace trk_bridge::wire::allocation_test

@@ -12,8 +12,7 @@
 #include "records.h"
 #include "trk_bridge/wire/codec.h"
 
-namespace trk_bridge::wire {
-namespace {
+namespace trk_bridge::wire::fault_test {
 
 using test::encoded;
 using test::RandomRecords;
@@ -285,5 +284,4 @@ TEST(FaultNames, SayTheField) {
   EXPECT_EQ(describe({Reason::bad_magic}), "bad magic: does not begin with DMC01 and a NUL");
 }
 
-}  // namespace
-}  // namespace trk_bridge::wire
+}  // namespace trk_bridge::wire::fault_test

@@ -9,8 +9,7 @@
 
 #include "trk_bridge/wire/codec.h"
 
-namespace trk_bridge::wire {
-namespace {
+namespace trk_bridge::wire::fields_test {
 
 using ::testing::ElementsAre;
 
@@ -167,5 +166,4 @@ TEST(Fields, are_copied_to_other_types_and_back) {
   EXPECT_TRUE(same_fields(back, angles));
 }
 
-}  // namespace
-}  // namespace trk_bridge::wire
+}  // namespace trk_bridge::wire::fields_test

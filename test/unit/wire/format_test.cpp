@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::wire {
-namespace {
+namespace trk_bridge::wire::format_test {
 
 using testing::HasSubstr;
 
@@ -73,5 +72,4 @@ TEST(CheckWritable, RefusesUnknownBitsAndTwoAngles) {
   EXPECT_THAT(check_writable(vertical | diagonal).error(), HasSubstr("vertical and diagonal"));
 }
 
-}  // namespace
-}  // namespace trk_bridge::wire
+}  // namespace trk_bridge::wire::format_test

@@ -13,8 +13,7 @@
 #include "trk_bridge/wire/codec.h"
 #include "vectors.h"
 
-namespace trk_bridge::wire {
-namespace {
+namespace trk_bridge::wire::layout_detector_test {
 
 using test::bits_of;
 using test::encoded;
@@ -425,5 +424,4 @@ TEST(FieldSets, AsBigEndianAndAsWindowsWouldSendThem) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::wire
+}  // namespace trk_bridge::wire::layout_detector_test

@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace trk_bridge::wire {
-namespace {
+namespace trk_bridge::wire::layout_test {
 
 TEST(Layout, SizesAreThoseOfTheWireFormat) {
   for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
@@ -67,5 +66,4 @@ TEST(LayoutChoice, FallsBackForMissingParts) {
             (Layout{Generation::identified, Abi::llp64, ByteOrder::little}));
 }
 
-}  // namespace
-}  // namespace trk_bridge::wire
+}  // namespace trk_bridge::wire::layout_test

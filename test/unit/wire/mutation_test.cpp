@@ -13,8 +13,7 @@
 #include "trk_bridge/wire/codec.h"
 #include "vectors.h"
 
-namespace trk_bridge::wire {
-namespace {
+namespace trk_bridge::wire::mutation_test {
 
 using test::bits_of;
 using test::ExactCopy;
@@ -140,5 +139,4 @@ TEST(Mutation, ABadDatagramLeavesNothingBehind) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::wire
+}  // namespace trk_bridge::wire::mutation_test

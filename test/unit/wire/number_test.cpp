@@ -18,8 +18,7 @@
 #include "trk_bridge/wire/codec.h"
 #include "wire/shortest.h"
 
-namespace trk_bridge::wire {
-namespace {
+namespace trk_bridge::wire::number_test {
 
 /// A record with `word` as pan, field 5.
 std::string with_pan(const std::string& word) { return "11 1 2 3 " + word + " 5 6 40 0 0 0 0 4 2 99"; }
@@ -302,5 +301,4 @@ TEST(Counters, Are64BitsWide) {
   }
 }
 
-}  // namespace
-}  // namespace trk_bridge::wire
+}  // namespace trk_bridge::wire::number_test

@@ -7,8 +7,7 @@
 #include "records.h"
 #include "trk_bridge/wire/codec.h"
 
-namespace trk_bridge::wire {
-namespace {
+namespace trk_bridge::wire::round_trip_test {
 
 using test::bits_of;
 using test::encoded;
@@ -195,5 +194,4 @@ TEST(Rigid, IsARotationAboveItsBottomRow) {
   EXPECT_FALSE(is_rigid(nan));
 }
 
-}  // namespace
-}  // namespace trk_bridge::wire
+}  // namespace trk_bridge::wire::round_trip_test

@@ -15,8 +15,7 @@
 #include "trk_bridge/wire/format.h"
 #include "vectors.h"
 
-namespace trk_bridge::wire {
-namespace {
+namespace trk_bridge::wire::vectors_test {
 
 using test::bits_of;
 using test::constants_of;
@@ -146,5 +145,4 @@ TEST_P(FieldVectors, WrittenAsciiReadsBackExactly) {
 INSTANTIATE_TEST_SUITE_P(Sets, FieldVectors, testing::ValuesIn(sets),
                          [](const auto& set) { return std::string(set.param.folder); });
 
-}  // namespace
-}  // namespace trk_bridge::wire
+}  // namespace trk_bridge::wire::vectors_test
