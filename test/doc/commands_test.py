@@ -209,12 +209,16 @@ def main():
     parser.add_argument("--devel", type=pathlib.Path, required=True, help="that build's devel space")
     parser.add_argument("--junit", type=pathlib.Path, help="where results are written to")
     parser.add_argument("--section", help="only sections whose heading contains this")
-    parser.add_argument("pages", nargs="*", type=pathlib.Path, help="default: all pages")
+    parser.add_argument("--all-but", action="store_true", help="all pages but those that are given")
+    parser.add_argument("pages", nargs="*", type=pathlib.Path, help="relative to the repository; default: all pages")
     options = parser.parse_args()
     options.root, options.build = options.root.resolve(), options.build.resolve()
-    paths = pages.page_files(options.root)
-    if options.pages:
-        paths = [page.resolve() for page in options.pages]
+    given = [(options.root / page).resolve() for page in options.pages]
+    every_page = pages.page_files(options.root)
+    for page in given:
+        if page not in every_page:
+            parser.error(f"{page} is not a page of {options.root}")
+    paths = [page for page in every_page if page not in given] if options.all_but else given or every_page
 
     report = Report()
     with invisible_display() as display:
