@@ -38,9 +38,10 @@ if [ -z "${CXX:-}" ] && ! echo '__GNUC__' | c++ -E -P -x c++ - 2>/dev/null | awk
   done
 fi
 
+# The files of a target are compiled together (unity build): a complete build takes less than half of the time.
 configure() {
-  cmake -S "$root" -B "$build" -G Ninja \
-    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "$@"
+  cmake -S "$root" -B "$build" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 "$@"
 }
 
 # The setup files of catkin read variables that may be unset.
@@ -50,13 +51,13 @@ enter_devel_space() {
   set -u
 }
 
-# ctest in the build, with its arguments. Tests wait more than they compute: one more at a time than there are processors.
+# ctest in the build, with its arguments. Tests wait more than they compute: three more at a time than there are processors.
 # Nodes of the tests must find each other on a machine that cannot resolve its name.
 run_tests() {
   enter_devel_space
   export ROS_IP=127.0.0.1
   unset ROS_HOSTNAME
-  (cd "$build" && ctest -j "$((jobs + 1))" --output-on-failure "$@")
+  (cd "$build" && ctest -j "$((jobs + 3))" --output-on-failure "$@")
 }
 
 # A free UDP port of 127.0.0.1.
