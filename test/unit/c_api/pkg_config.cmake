@@ -1,8 +1,9 @@
 # Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 # Installs to an empty folder and builds a C program with the flags of pkg-config, like a user does.
-set(prefix ${BUILD}/pkg_config_test)
 
-# Removes the installation: a second package.xml would hide the package from roslaunch.
+# Outside of the sources, where roslaunch would find the installation as another package of the same name.
+execute_process(COMMAND mktemp -d OUTPUT_VARIABLE prefix OUTPUT_STRIP_TRAILING_WHITESPACE)
+
 function(fail text)
   file(REMOVE_RECURSE ${prefix})
   message(FATAL_ERROR "${text}")
@@ -15,7 +16,6 @@ function(run)
   endif()
 endfunction()
 
-file(REMOVE_RECURSE ${prefix})
 unset(ENV{DESTDIR})
 run(${CMAKE_COMMAND} -DCMAKE_INSTALL_PREFIX=${prefix} -P ${BUILD}/cmake_install.cmake)
 
