@@ -102,13 +102,11 @@ endfunction()
 # trk_bridge_add_test(NAME PROGRAM [FILE]): a test of ctest and, with ROS, of catkin's run_tests: all tests of a program, or
 # those of one of its files.
 function(trk_bridge_add_test name program)
-  set(command $<TARGET_FILE:${program}> ${ARGN})
   if(TRK_BRIDGE_ROS)
     set(results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/gtest-${name}.xml)
-    list(JOIN command " " command)
     catkin_run_tests_target(gtest ${name} gtest-${name}.xml
-      COMMAND "${command} --gtest_output=xml:${results}" DEPENDENCIES ${program})
+      COMMAND "$<TARGET_FILE:${program}> ${ARGN} --gtest_output=xml:${results}" DEPENDENCIES ${program})
   else()
-    add_test(NAME ${name} COMMAND ${command})
+    add_test(NAME ${name} COMMAND ${program} ${ARGN})
   endif()
 endfunction()
