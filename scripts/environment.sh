@@ -51,13 +51,13 @@ enter_devel_space() {
   set -u
 }
 
-# ctest in the build, with its arguments. Tests wait more than they compute: three more at a time than there are processors.
+# ctest in the build, with its arguments. Tests wait more than they compute: three at a time for each processor.
 # Nodes of the tests must find each other on a machine that cannot resolve its name.
 run_tests() {
   enter_devel_space
   export ROS_IP=127.0.0.1
   unset ROS_HOSTNAME
-  (cd "$build" && ctest -j "$((jobs + 3))" --output-on-failure "$@")
+  (cd "$build" && ctest -j "$((jobs * 3))" --output-on-failure "$@")
 }
 
 # A free UDP port of 127.0.0.1.
