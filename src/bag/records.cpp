@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <system_error>
 
 #include <fcntl.h>
 #include <rosbag/constants.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/system_text.h"
 #include "reader.h"
 
 namespace trk_bridge::bag {
@@ -20,7 +20,7 @@ constexpr std::uint32_t longest_header = 1 << 20;
 constexpr std::uint64_t block_size = 1 << 18;
 constexpr std::uint64_t size_size = sizeof(std::uint32_t);
 
-[[noreturn]] void fail(int error) { throw BagError("cannot be read: " + std::system_category().message(error)); }
+[[noreturn]] void fail(int error) { throw BagError("cannot be read: " + base::system_text(error)); }
 
 std::uint32_t size_in(std::string_view bytes) {
   std::uint32_t size = 0;

@@ -8,12 +8,12 @@
 #include <iostream>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "base/nearest.h"
 #include "base/number_text.h"
 #include "base/process.h"
+#include "base/system_text.h"
 #include "endpoints/schemes.h"
 #include "option_text.h"
 #include "transport/scheme.h"
@@ -141,7 +141,7 @@ void write_whole_file(const std::string& path, const std::string& text) {
   std::ofstream file(path);
   file << text;
   if (!file.flush()) {
-    throw std::runtime_error(path + ": cannot be written: " + std::generic_category().message(errno));
+    throw std::runtime_error(path + ": cannot be written: " + base::system_text(errno));
   }
 }
 

@@ -3,7 +3,8 @@
 
 #include <cerrno>
 #include <ostream>
-#include <system_error>
+
+#include "base/system_text.h"
 
 namespace trk_bridge::cli {
 
@@ -22,7 +23,7 @@ ExitCode CheckedOutput::finish(std::ostream& err) {
     note_error();
   }
   if (error_ == 0 || error_ == EPIPE) return exit_good;
-  err << "trk: error: standard output: " << std::generic_category().message(error_) << '\n';
+  err << "trk: error: standard output: " << base::system_text(error_) << '\n';
   return exit_failed;
 }
 

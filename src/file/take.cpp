@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -12,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/system_text.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::file {
@@ -58,12 +58,10 @@ std::string describe_truncated(const transport::Fault& fault) {
 
 std::string refusal(const std::string& path, const std::string& reason) { return path + ": cannot be read: " + reason; }
 
-std::string system_text(int error) { return std::system_category().message(error); }
-
 /// Empty if the kind of file can be read.
 std::string refusal_of_kind(mode_t mode) {
   if (S_ISREG(mode) || S_ISFIFO(mode)) return {};
-  if (S_ISDIR(mode)) return system_text(EISDIR);
+  if (S_ISDIR(mode)) return base::system_text(EISDIR);
   const char* const kind = S_ISCHR(mode) || S_ISBLK(mode) ? "a device" : S_ISSOCK(mode) ? "a socket" : "something else";
   return std::string("it is ") + kind + "; allowed are regular files and FIFOs";
 }
@@ -75,11 +73,11 @@ TakeReader::TakeReader(std::string path, MalformedLines malformed, Waiting waiti
   const auto refuse = [this](const std::string& reason) { throw transport::TransportError(refusal(path_, reason)); };
   // Checked before it is opened: opening a device can have side effects.
   struct stat state {};
-  if (::stat(path_.c_str(), &state) != 0) refuse(system_text(errno));
+  if (::stat(path_.c_str(), &state) != 0) refuse(base::system_text(errno));
   if (const std::string reason = refusal_of_kind(state.st_mode); !reason.empty()) refuse(reason);
   const int flags = waiting == Waiting::never ? O_RDONLY | O_CLOEXEC | O_NONBLOCK : O_RDONLY | O_CLOEXEC;
   file_ = transport::Descriptor(::open(path_.c_str(), flags | O_NOCTTY));
-  if (file_.get() < 0 || ::fstat(file_.get(), &state) != 0) refuse(system_text(errno));
+  if (file_.get() < 0 || ::fstat(file_.get(), &state) != 0) refuse(base::system_text(errno));
   if (const std::string reason = refusal_of_kind(state.st_mode); !reason.empty()) refuse(reason);
   is_fifo_ = S_ISFIFO(state.st_mode);
   if (!is_fifo_) size_ = static_cast<std::uint64_t>(state.st_size);
@@ -92,7 +90,7 @@ double TakeReader::progress() const noexcept {
 
 bool TakeReader::rewind() {
   if (::lseek(file_.get(), static_cast<off_t>(first_field_.offset), SEEK_SET) < 0) {
-    error_ = refusal(path_, system_text(errno));
+    error_ = refusal(path_, base::system_text(errno));
     stage_ = Stage::failed;
     return false;
   }
@@ -166,7 +164,7 @@ TakeReader::Got TakeReader::next() {
       case Line::nothing_yet:
         return Got::nothing_yet;
       case Line::failed:
-        error_ = refusal(path_, system_text(errno));
+        error_ = refusal(path_, base::system_text(errno));
         stage_ = Stage::failed;
         return Got::failed;
       case Line::end:

@@ -6,11 +6,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
-#include <system_error>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "base/system_text.h"
 
 namespace trk_bridge::shm {
 namespace {
@@ -58,9 +59,9 @@ std::string describe_problem(const SlotFault& f) {
     case SlotProblem::exists:
       return "another program creates or removes the segment at the same time";
     case SlotProblem::file_refused:
-      return slot_path(f.slot) + ": " + std::generic_category().message(f.error_number);
+      return slot_path(f.slot) + ": " + base::system_text(f.error_number);
     case SlotProblem::system:
-      return std::generic_category().message(f.error_number);
+      return base::system_text(f.error_number);
   }
   return "unknown problem";
 }

@@ -8,11 +8,11 @@
 #include <cerrno>
 #include <map>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 
+#include "base/system_text.h"
 #include "endpoints/schemes.h"
 #include "transport/datagram.h"
 
@@ -45,7 +45,7 @@ std::vector<std::string> own_addresses() {
   std::vector<std::string> all;
   ifaddrs* list = nullptr;
   if (::getifaddrs(&list) != 0) {
-    throw transport::TransportError("the addresses of this machine: " + std::generic_category().message(errno));
+    throw transport::TransportError("the addresses of this machine: " + base::system_text(errno));
   }
   for (const ifaddrs* one = list; one != nullptr; one = one->ifa_next) {
     if (one->ifa_addr == nullptr) continue;

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 #include "counted_source.h"
 
-#include <system_error>
 #include <variant>
 
+#include "base/system_text.h"
 #include "trk_bridge/wire/format.h"
 
 namespace trk_bridge::transport {
@@ -58,7 +58,7 @@ SourceStatistics CountedSource::statistics() const {
   statistics.last_refused = counts.last_refused;
   if (counts.end == Event::failed) {
     statistics.state = SourceState::failed;
-    statistics.error = name_ + ": " + std::generic_category().message(counts.error);
+    statistics.error = name_ + ": " + base::system_text(counts.error);
   } else if (counts.end == Event::ended) {
     statistics.state = SourceState::ended;
   } else if (counts.records > 0) {

@@ -1,4 +1,5 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
+#include "base/system_text.h"
 #include "datagram.h"
 
 #include <netinet/in.h>
@@ -35,7 +36,7 @@ void set_ttl(int fd, const SocketAddress& target, int ttl) {
 
 Descriptor open_socket_to(const SocketAddress& target, const SendSettings& settings) {
   Descriptor socket(::socket(target.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (!socket.is_open()) throw TransportError("no socket: " + system_text(errno));
+  if (!socket.is_open()) throw TransportError("no socket: " + base::system_text(errno));
   const int fd = socket.get();
   // Always set: whether the target is a broadcast address changes with the interfaces.
   if (target.family() == AF_INET) set_option(fd, SOL_SOCKET, SO_BROADCAST, 1, "broadcast");

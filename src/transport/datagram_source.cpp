@@ -1,4 +1,5 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
+#include "base/system_text.h"
 #include "datagram.h"
 
 #include <sys/epoll.h>
@@ -33,7 +34,7 @@ class DatagramSource final : public CountedSource {
       epoll_event readable{};
       readable.events = EPOLLIN;
       if (!readable_.is_open() || ::epoll_ctl(readable_.get(), EPOLL_CTL_ADD, socket->fd(), &readable) != 0) {
-        throw TransportError("no descriptor for waiting: " + system_text(errno));
+        throw TransportError("no descriptor for waiting: " + base::system_text(errno));
       }
     }
   }

@@ -16,6 +16,7 @@
 #include <net/if.h>
 #include <sys/socket.h>
 
+#include "base/system_text.h"
 #include "scheme.h"
 #include "trk_bridge/transport/source.h"
 
@@ -38,7 +39,7 @@ struct InterfaceAddress {
 
 std::vector<InterfaceAddress> interface_addresses() {
   ifaddrs* list = nullptr;
-  if (::getifaddrs(&list) != 0) throw TransportError("the interfaces cannot be listed: " + system_text(errno));
+  if (::getifaddrs(&list) != 0) throw TransportError("the interfaces cannot be listed: " + base::system_text(errno));
   const std::unique_ptr<ifaddrs, decltype(&::freeifaddrs)> owner(list, &::freeifaddrs);
   std::vector<InterfaceAddress> addresses;
   for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next) {
@@ -143,8 +144,8 @@ bool join_group(int fd, const SocketAddress& group, unsigned index) {
   if (error == 0) return true;
   char name[IF_NAMESIZE] = "?";
   ::if_indextoname(index, name);
-  throw TransportError("joining the group through interface " + std::string(name) + " failed: " + system_text(error) +
-                       " (interface=ADDR selects another one)");
+  throw TransportError("joining the group through interface " + std::string(name) +
+                       " failed: " + base::system_text(error) + " (interface=ADDR selects another one)");
 }
 
 void leave_group(int fd, const SocketAddress& group, unsigned index) noexcept {
@@ -178,7 +179,7 @@ InterfaceWatch::InterfaceWatch()
   address.nl_family = AF_NETLINK;
   address.nl_groups = RTMGRP_LINK | RTMGRP_IPV4_IFADDR | RTMGRP_IPV6_IFADDR;
   if (!changes_.is_open() || ::bind(changes_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    throw TransportError("changes of the interfaces cannot be watched: " + system_text(errno));
+    throw TransportError("changes of the interfaces cannot be watched: " + base::system_text(errno));
   }
 }
 

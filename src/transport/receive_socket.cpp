@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/system_text.h"
 #include "socket.h"
 #include "trk_bridge/transport/source.h"
 
@@ -55,7 +56,7 @@ void bind_or_throw(int fd, const SocketAddress& address, bool shareable) {
     case EACCES:
       throw TransportError("this port is reserved for privileged programs");
     default:
-      throw TransportError("binding failed: " + system_text(errno));
+      throw TransportError("binding failed: " + base::system_text(errno));
   }
 }
 
@@ -97,7 +98,7 @@ Descriptor open_bound(const ReceiveSettings& settings, SocketAddress& address) {
     address = any_ipv4(settings.port);
     socket = open_socket(AF_INET);
   }
-  if (!socket.is_open()) throw TransportError("no socket: " + system_text(errno));
+  if (!socket.is_open()) throw TransportError("no socket: " + base::system_text(errno));
   const int fd = socket.get();
   if (address.family() == AF_INET6) set_option(fd, IPPROTO_IPV6, IPV6_V6ONLY, every ? 0 : 1, "IPv6 only");
   const bool group = is_multicast(address);
@@ -137,7 +138,7 @@ ReceiveSocket::ReceiveSocket(const ReceiveSettings& settings)
   if (is_group_ || is_tied) watch_.emplace();
   if (is_tied) {
     readable_ = Descriptor(::epoll_create1(EPOLL_CLOEXEC));
-    if (!readable_.is_open()) throw TransportError("no descriptor for waiting: " + system_text(errno));
+    if (!readable_.is_open()) throw TransportError("no descriptor for waiting: " + base::system_text(errno));
   }
   socket_ = is_tied ? open_socket(AF_INET6) : open_bound(settings_, address_);
   follow_interfaces({});
@@ -168,7 +169,7 @@ void ReceiveSocket::replace_socket(const Descriptor& with) {
   const std::lock_guard lock(mutex_);
   const Descriptor old(::fcntl(socket_.get(), F_DUPFD_CLOEXEC, 0));
   if (!old.is_open() || ::dup3(with.get(), socket_.get(), O_CLOEXEC) < 0) {
-    throw TransportError("no socket: " + system_text(errno));
+    throw TransportError("no socket: " + base::system_text(errno));
   }
   earlier_drops_ += dropped_by_kernel(old.get()).value_or(0);
   // A reader that waits on the old socket must continue on the new one, and stop() may have seen only the old one.
@@ -176,7 +177,7 @@ void ReceiveSocket::replace_socket(const Descriptor& with) {
   if (stopped_) end_waits(socket_.get());
   // The kernel removes the old one from the set when its last descriptor is closed.
   if (::epoll_ctl(readable_.get(), EPOLL_CTL_ADD, socket_.get(), &readable) != 0) {
-    throw TransportError("no socket: " + system_text(errno));
+    throw TransportError("no socket: " + base::system_text(errno));
   }
 }
 

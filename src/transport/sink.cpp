@@ -1,8 +1,9 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
 #include "trk_bridge/transport/sink.h"
 
-#include <system_error>
 #include <tuple>
+
+#include "base/system_text.h"
 
 namespace trk_bridge::transport {
 namespace {
@@ -25,7 +26,7 @@ std::string describe(const SinkFault& fault) {
     case SinkReason::other_camera:
       return "a file has one camera, and the id of this record is not that of the constants in the file";
     case SinkReason::system:
-      return "the system refused: " + std::generic_category().message(fault.error_number);
+      return "the system refused: " + base::system_text(fault.error_number);
     case SinkReason::no_interface:
       return "the interface to send through does not exist or has no address; sending continues when it has one";
     case SinkReason::no_segment:

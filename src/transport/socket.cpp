@@ -14,6 +14,7 @@
 #include <netdb.h>
 #include <netinet/in.h>
 
+#include "base/system_text.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::transport {
@@ -73,7 +74,7 @@ std::vector<SocketAddress> resolve(const std::string& host, std::uint16_t port) 
   Lookup lookup = look_up(split_zone(host).first, port, 0);
   if (lookup.error != 0) {
     const std::string reason =
-        lookup.error == EAI_SYSTEM ? system_text(errno) : std::string(::gai_strerror(lookup.error));
+        lookup.error == EAI_SYSTEM ? base::system_text(errno) : std::string(::gai_strerror(lookup.error));
     throw TransportError("host \"" + host + "\": " + reason);
   }
   if (lookup.addresses.empty()) {
@@ -178,7 +179,7 @@ SocketAddress bound_address(int fd) {
   SocketAddress address;
   address.length = sizeof address.storage;
   if (::getsockname(fd, address.get(), &address.length) != 0) {
-    throw TransportError("the port of the socket cannot be read: " + system_text(errno));
+    throw TransportError("the port of the socket cannot be read: " + base::system_text(errno));
   }
   return address;
 }

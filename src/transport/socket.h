@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -14,12 +13,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "base/system_text.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::transport {
-
-/// What the system says about an error number.
-inline std::string system_text(int error) { return std::generic_category().message(error); }
 
 class Descriptor {
  public:
@@ -94,7 +91,7 @@ SocketAddress bound_address(int fd);
 template <typename T>
 void set_option(int fd, int level, int option, const T& value, const char* what) {
   if (::setsockopt(fd, level, option, &value, sizeof value) == 0) return;
-  throw TransportError(std::string(what) + ": the system refused: " + system_text(errno));
+  throw TransportError(std::string(what) + ": the system refused: " + base::system_text(errno));
 }
 
 }  // namespace trk_bridge::transport

@@ -6,12 +6,12 @@
 #include <cerrno>
 #include <cstdint>
 #include <ctime>
-#include <system_error>
 
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include "base/system_text.h"
 #include "trk_bridge/transport/source.h"
 
 namespace trk_bridge::transport {
@@ -26,7 +26,7 @@ constexpr nanoseconds longest_wait = std::chrono::hours(24 * 365 * 100);
 }  // namespace
 
 StopEvent::StopEvent() : fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  if (fd_ < 0) throw TransportError("no descriptor for waiting: " + std::generic_category().message(errno));
+  if (fd_ < 0) throw TransportError("no descriptor for waiting: " + base::system_text(errno));
 }
 
 StopEvent::~StopEvent() { ::close(fd_); }
