@@ -44,6 +44,16 @@ configure() {
     -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 "$@"
 }
 
+# Configures a folder beside the build for another purpose: each file is compiled alone, and there are no tests. rosrun
+# goes on finding the programs that it found before.
+configure_separately() {
+  local link status=0
+  link=$(readlink "$root/.rosrun") || link=
+  configure -DCMAKE_UNITY_BUILD=OFF -DTRK_BRIDGE_TESTS=OFF "$@" || status=$?
+  if [ -n "$link" ]; then ln -sfn "$link" "$root/.rosrun"; else rm -f "$root/.rosrun"; fi
+  return "$status"
+}
+
 # The setup files of catkin read variables that may be unset.
 enter_devel_space() {
   set +u
