@@ -1,6 +1,5 @@
 // Copyright (c) 2026, trk_bridge maintainers. SPDX-License-Identifier: BSD-3-Clause
-// A test program contains the tests of several source files. For ctest, each file is a test: a process that runs only
-// it.
+// A test program contains the tests of several source files; ctest runs one process for each file.
 #pragma once
 
 #include <cstdio>
